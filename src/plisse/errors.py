@@ -1,0 +1,21 @@
+"""What can go wrong, said in one sentence each: expected, found, where, what to do."""
+
+
+class PlisseError(Exception):
+    """Any failure that plisse foresees; its message is one sentence for the person at the keyboard."""
+
+
+class InvalidDesign(PlisseError, ValueError):
+    """A design that cannot be read or asks for something impossible."""
+
+
+class InvalidStructure(PlisseError, ValueError):
+    """A mesh or file that is not a structure of planar faces along creases."""
+
+
+class Infeasible(PlisseError, ArithmeticError):
+    """Geometry that breaks down on the way: a pattern that degenerates, a strip that dies."""
+
+
+class MissingExtra(PlisseError, ImportError):
+    """An optional package is needed; the message says what to install for what."""

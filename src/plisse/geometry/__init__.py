@@ -1,0 +1,1 @@
+"""Curves, frames and vectors; nothing here knows about folding."""
