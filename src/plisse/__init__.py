@@ -1,0 +1,1 @@
+"""Curve-pleated structures."""

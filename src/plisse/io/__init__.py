@@ -1,0 +1,1 @@
+"""Files: one format per module, reading and writing side by side."""

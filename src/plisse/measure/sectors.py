@@ -1,0 +1,33 @@
+"""Sector angles ω of the faces, and what they must sum to (§2.3 (2), §2.4 (4))."""
+
+import numpy as np
+
+from plisse.geometry.vectors import angle_between
+from plisse.structure.topology import Topology
+
+__all__ = ["angle_defect", "principal_defect", "sector_angles"]
+
+
+def sector_angles(topology: Topology, vertices: np.ndarray) -> np.ndarray:
+    """Angle in radians (C,) at every corner, in the order of `topology.corners`."""
+    corners = topology.corners
+    origin = vertices[corners.vertex]
+    return angle_between(vertices[corners.next] - origin, vertices[corners.previous] - origin)
+
+
+def angle_defect(topology: Topology, vertices: np.ndarray) -> np.ndarray:
+    """Σω − 2π per vertex (V,), 0 on the boundary: w_angle of Fig. 21, zero when developable (2)."""
+    sums = np.bincount(topology.corners.vertex, sector_angles(topology, vertices), topology.vertex_count)
+    return np.where(topology.is_boundary, 0.0, sums - 2 * np.pi)
+
+
+def principal_defect(topology: Topology, vertices: np.ndarray) -> np.ndarray:
+    """Largest of |ω1+ω3−π| and |ω2+ω4−π| per vertex (V,), 0 on the boundary and off 4-valent vertices (4)."""
+    defect = np.zeros(topology.vertex_count)
+    angles = sector_angles(topology, vertices)
+    walk = topology.star_corners.get(4)
+    if walk is not None:
+        ring = angles[walk]
+        opposite = np.stack([ring[:, 0] + ring[:, 2], ring[:, 1] + ring[:, 3]])
+        defect[topology.stars[4][:, 0]] = np.abs(opposite - np.pi).max(axis=0)
+    return defect

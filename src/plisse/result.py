@@ -1,0 +1,79 @@
+"""What a design comes to: the structure, the way there, and the report that proves it."""
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+import msgspec
+
+from plisse.design import Design
+from plisse.structure.pattern import Pattern
+from plisse.structure.pleated import PleatedStructure
+
+__all__ = ["Report", "Result", "Sheet", "Spread"]
+
+
+class Spread(msgspec.Struct, frozen=True):
+    """Largest and mean absolute value."""
+
+    max: float
+    mean: float
+
+
+class Interval(msgspec.Struct, frozen=True):
+    """Smallest and largest value."""
+
+    min: float
+    max: float
+
+
+class Sheet(msgspec.Struct, frozen=True):
+    """The development as a piece of paper."""
+
+    overlaps: bool
+    size_mm: tuple[float, float]
+
+
+class Report(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=False):
+    """The numbers of `report.json`; angles in radians unless a name says degrees, see the conventions page."""
+
+    status: Literal["exact", "approximate", "infeasible"]
+    reasons: list[str]
+    vertices: int = 0
+    faces: int = 0
+    planarity: Spread | None = None
+    angle_defect: Spread | None = None
+    principal_defect: Spread | None = None
+    min_sector_angle_deg: float | None = None
+    opening_angle_deg: Interval | None = None
+    crease_deviation: Spread | None = None
+    inverted_faces: int | None = None
+    self_intersections: int | None = None
+    isometry: float | None = None
+    start: dict[str, dict[str, float]] = {}
+    iterations: int = 0
+    method: str = ""
+    seconds: dict[str, float] = {}
+    units: str = "mm"
+    development: Sheet | None = None
+    history: list[float] = []
+    design: dict = {}
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """A design, its guiding pattern, the zigzag it started from, the structure and its report.
+
+    `pattern`, `zigzagged` and `structure` are None where the design broke down before they existed.
+    """
+
+    design: Design
+    report: Report
+    pattern: Pattern | None = None
+    zigzagged: PleatedStructure | None = None
+    structure: PleatedStructure | None = None
+    attempts: tuple[str, ...] = field(default=())
+
+    @property
+    def status(self) -> str:
+        """exact, approximate or infeasible."""
+        return self.report.status

@@ -1,0 +1,84 @@
+"""Cutting a closed structure open so that it can be laid flat (§4, Figs 9 and 26)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from plisse.structure.topology import Polyline, Topology
+
+__all__ = ["Cut", "cut_along", "uncut"]
+
+
+@dataclass(frozen=True, eq=False)
+class Cut:
+    """A topology cut open and, for each of its vertices, the vertex it comes from."""
+
+    topology: Topology
+    source: np.ndarray
+
+    @property
+    def is_trivial(self) -> bool:
+        """Whether nothing was cut."""
+        return len(self.source) == len(np.unique(self.source))
+
+
+def uncut(topology: Topology) -> Cut:
+    """The topology itself, for structures that are simply connected already."""
+    return Cut(topology, np.arange(topology.vertex_count))
+
+
+def cut_along(topology: Topology, *lines: Polyline) -> Cut:
+    """The topology with both copies of every vertex inside the lines; faces and their order stay the same."""
+    corners, edges = topology.corners, topology.edges
+    key = _edge_keys(edges.vertices, topology.vertex_count)
+    severed = np.isin(key, np.concatenate([_line_keys(line, topology.vertex_count) for line in lines]))
+    corner_key = _edge_keys(np.stack([corners.vertex, corners.next], axis=1), topology.vertex_count)
+    order = np.argsort(corner_key, kind="stable")
+    twins = np.flatnonzero(np.diff(corner_key[order]) == 0)
+    first, second = order[twins], order[twins + 1]
+    open_ = ~np.isin(corner_key[first], key[severed])
+    first, second = first[open_], second[open_]
+    following = _next_corner(topology)
+    # across an edge the corner at its start meets the corner at the other face's end, and the other way round
+    links = np.concatenate([np.stack([first, following[second]]), np.stack([following[first], second])], axis=1)
+    graph = coo_array((np.ones(links.shape[1]), links), shape=(len(corners.vertex),) * 2)
+    _, label = connected_components(graph, directed=False)
+    return _relabel(topology, label)
+
+
+def _relabel(topology: Topology, label: np.ndarray) -> Cut:
+    """Number the corner classes so that vertices keep their numbers and copies come last."""
+    vertex = topology.corners.vertex
+    classes, first = np.unique(label, return_index=True)
+    source = vertex[first]
+    order = np.lexsort((first, source))
+    keeps = np.concatenate([[True], np.diff(source[order]) > 0])
+    number = np.empty(len(classes), np.int64)
+    number[order[keeps]] = source[order[keeps]]
+    copies = order[~keeps]
+    number[copies] = topology.vertex_count + np.arange(len(copies))
+    corner = number[np.searchsorted(classes, label)]
+    quads = corner[: topology.quads.size].reshape(-1, 4)
+    sizes = np.cumsum([len(hub) for hub in topology.hubs])
+    hubs = tuple(np.split(corner[topology.quads.size:], sizes[:-1])) if topology.hubs else ()
+    all_sources = np.concatenate([np.arange(topology.vertex_count), source[copies]])
+    ordering = None if topology.ordering is None else topology.ordering[all_sources]
+    return Cut(Topology(len(all_sources), quads, hubs, ordering), all_sources)
+
+
+def _next_corner(topology: Topology) -> np.ndarray:
+    size = np.concatenate([np.full(len(topology.quads), 4), [len(hub) for hub in topology.hubs]]).astype(int)
+    start = np.repeat(np.cumsum(size) - size, size)
+    position = np.arange(size.sum()) - start
+    return start + (position + 1) % np.repeat(size, size)
+
+
+def _line_keys(line: Polyline, vertex_count: int) -> np.ndarray:
+    vertices = np.append(line.vertices, line.vertices[0]) if line.closed else line.vertices
+    return _edge_keys(np.stack([vertices[:-1], vertices[1:]], axis=1), vertex_count)
+
+
+def _edge_keys(ends: np.ndarray, vertex_count: int) -> np.ndarray:
+    return ends.min(axis=1) * np.int64(vertex_count) + ends.max(axis=1)
