@@ -1,0 +1,110 @@
+"""Moving frames of polylines: curvature, torsion and binormals that pass through inflections (§2.1, §3.2)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import solveh_banded
+
+from plisse.geometry.polyline import segments, tangents
+from plisse.geometry.vectors import dot, norm, unit
+
+__all__ = ["Frame", "curvature", "curvature_vectors", "regularised_frame", "torsion"]
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """Tangent e1, principal normal e2 and binormal e3, each (N, 3)."""
+
+    tangent: np.ndarray
+    principal_normal: np.ndarray
+    binormal: np.ndarray
+
+
+def curvature_vectors(points: np.ndarray, closed: bool = False) -> np.ndarray:
+    """κ e3 (N, 3) of the circles through three successive points; 0 at open ends."""
+    before, after = segments(points, closed)
+    length_before, length_after = norm(before), norm(after)
+    chord = norm(before + after)
+    inner = 2 * np.cross(before, after) / (length_before * length_after * chord)[:, None]
+    return inner if closed else np.concatenate([np.zeros((1, 3)), inner, np.zeros((1, 3))])
+
+
+def curvature(points: np.ndarray, closed: bool = False) -> np.ndarray:
+    """Curvature κ (N,), copied outwards to open ends."""
+    values = norm(curvature_vectors(points, closed))
+    return values if closed else np.concatenate([values[1:2], values[1:-1], values[-2:-1]])
+
+
+def torsion(points: np.ndarray, closed: bool = False) -> np.ndarray:
+    """Torsion τ (N,) by the turn of the osculating planes, copied outwards to open ends."""
+    binormal = unit(curvature_vectors(points, closed))
+    if closed:
+        following = np.roll(binormal, -1, axis=0)
+        edge = np.roll(points, -1, axis=0) - points
+    else:
+        binormal = binormal[1:-1]
+        following, binormal = binormal[1:], binormal[:-1]
+        edge = np.diff(points, axis=0)[1:-1]
+    turn = np.arctan2(dot(np.cross(binormal, following), unit(edge)), dot(binormal, following)) / norm(edge)
+    if closed:
+        return 0.5 * (turn + np.roll(turn, 1))
+    inner = 0.5 * (turn[1:] + turn[:-1]) if len(turn) > 1 else turn
+    missing = len(points) - len(inner)
+    return np.concatenate([np.repeat(inner[:1], missing // 2), inner, np.repeat(inner[-1:], missing - missing // 2)])
+
+
+def regularised_frame(points: np.ndarray, closed: bool, smoothing: float) -> Frame:
+    """Frame whose binormal minimises Σ κ²|E − e3|² + mean(κ²) ℓ⁴ |E″|², for any resolution alike.
+
+    `smoothing` is the length ℓ in model units. The weights κ² let E pass through weak inflections (§3.2's
+    regulariser made independent of the number of points).
+    """
+    vectors = curvature_vectors(points, closed)
+    weight = dot(vectors, vectors)
+    before, after = segments(points, closed)
+    step = 0.5 * float((norm(before) + norm(after)).mean())
+    mean = weight.mean() if closed else weight[1:-1].mean()
+    if not mean > 0:
+        raise ZeroDivisionError("a straight polyline has no binormal")
+    smooth = _solve_banded(weight, (smoothing / step) ** 4 * mean, vectors * np.sqrt(weight)[:, None], closed)
+    tangent = tangents(points, closed)
+    binormal = unit(smooth - dot(smooth, tangent)[:, None] * tangent)
+    return Frame(tangent, np.cross(binormal, tangent), binormal)
+
+
+def _solve_banded(weight: np.ndarray, stiffness: float, right: np.ndarray, closed: bool) -> np.ndarray:
+    """Solve (diag(weight) + stiffness D2ᵀD2) x = right, D2 second differences with free or periodic ends."""
+    count = len(weight)
+    if not closed:
+        bands = stiffness * _second_difference_bands(count)
+        bands[2] += weight
+        return solveh_banded(bands, right, check_finite=False)
+    order = _folded(count)
+    rank = np.argsort(order)
+    bands = np.zeros((5, count))
+    for shift, value in ((0, 6.0), (1, -4.0), (2, 1.0)):
+        i = np.arange(count)
+        a, b = rank[i], rank[(i + shift) % count]
+        np.add.at(bands, (4 - np.abs(a - b), np.maximum(a, b)), stiffness * value)
+    bands[4] += weight[order]
+    return solveh_banded(bands, right[order], check_finite=False)[rank]
+
+
+def _second_difference_bands(count: int) -> np.ndarray:
+    """Upper bands (3, count) of D2ᵀD2 for free ends."""
+    main, first = np.full(count, 6.0), np.full(count, -4.0)
+    main[[0, -1]], main[[1, -2]] = 1, 5
+    first[[1, -1]] = -2
+    if count == 3:
+        main[1] = 4
+    if count == 4:
+        main[[1, 2]], first[2] = 5, -4
+    return np.stack([np.ones(count), first, main])
+
+
+def _folded(count: int) -> np.ndarray:
+    """The order 0, n−1, 1, n−2, … in which a ring has a narrow band."""
+    order = np.empty(count, np.int64)
+    order[::2] = np.arange((count + 1) // 2)
+    order[1::2] = count - 1 - np.arange(count // 2)
+    return order

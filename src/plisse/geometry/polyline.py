@@ -1,0 +1,89 @@
+"""Polylines: arc length, even sampling, closest points."""
+
+import numpy as np
+from scipy.interpolate import make_interp_spline
+from scipy.spatial import cKDTree
+
+from plisse.geometry.vectors import dot, norm, unit
+
+__all__ = ["arc_length", "distance_to_polyline", "interpolating_spline", "sample_evenly"]
+
+
+def arc_length(points: np.ndarray, closed: bool = False) -> np.ndarray:
+    """Length along the polyline at every point (N,), or (N+1,) for closed ones: the last entry is the total."""
+    steps = np.diff(np.concatenate([points, points[:1]]) if closed else points, axis=0)
+    return np.concatenate([[0.0], np.cumsum(norm(steps))])
+
+
+def interpolating_spline(points: np.ndarray, closed: bool = False):
+    """Quintic spline through the points over [0, 1], parametrised so that its curvature varies least.
+
+    Even parameters suit points that were sampled from a smooth curve, chord lengths suit uneven points; both and
+    the compromise between them are tried.
+    """
+    values = np.concatenate([points, points[:1]]) if closed else points
+    chords = norm(np.diff(values, axis=0))
+    candidates = []
+    for power in (0.0, 0.5, 1.0):
+        parameter = np.concatenate([[0.0], np.cumsum(chords**power)])
+        candidates.append(_quintic(parameter / parameter[-1], values, closed))
+    return min(candidates, key=_curvature_variation)
+
+
+def _quintic(parameter: np.ndarray, values: np.ndarray, closed: bool):
+    if closed:
+        return make_interp_spline(parameter, values, k=5 if len(values) > 6 else 3, bc_type="periodic")
+    degree = 5 if len(values) > 5 else 3 if len(values) > 3 else len(values) - 1
+    return make_interp_spline(parameter, values, k=degree)
+
+
+def _curvature_variation(spline) -> float:
+    """∫ |dκ/ds|² ds along the spline, scale-free."""
+    parameter = np.linspace(0, 1, 2001)
+    velocity, bend = spline(parameter, 1), spline(parameter, 2)
+    speed = norm(velocity)
+    curvature = np.cross(velocity, bend) / speed[:, None] ** 3
+    step = 0.5 * (speed[1:] + speed[:-1]) * np.diff(parameter)
+    return float((dot(d := np.diff(curvature, axis=0), d) / step).sum() * step.sum() ** 3)
+
+
+def sample_evenly(points: np.ndarray, count: int, closed: bool = False) -> np.ndarray:
+    """Points (count, 3) at equal arc lengths along the interpolating spline; closed ones leave out the last."""
+    spline = interpolating_spline(points, closed)
+    fine = np.linspace(0, 1, max(4000, 10 * count))
+    length = arc_length(spline(fine))
+    return spline(np.interp(np.linspace(0, length[-1], count, endpoint=not closed), length, fine))
+
+
+def distance_to_polyline(points: np.ndarray, line: np.ndarray, closed: bool = False) -> np.ndarray:
+    """Distances (N,) of points from a polyline whose open ends are extended by their tangents."""
+    if closed:
+        line = np.concatenate([line[-2:], line, line[:2]])
+    nearest = cKDTree(line).query(points)[1]
+    best = np.full(len(points), np.inf)
+    for start in (np.clip(nearest - 1, 0, len(line) - 2), np.clip(nearest, 0, len(line) - 2)):
+        along = line[start + 1] - line[start]
+        at = dot(points - line[start], along) / dot(along, along)
+        low = np.where((start == 0) & (not closed), -np.inf, 0.0)
+        high = np.where((start == len(line) - 2) & (not closed), np.inf, 1.0)
+        best = np.minimum(best, norm(points - line[start] - np.clip(at, low, high)[:, None] * along))
+    return best
+
+
+def tangents(points: np.ndarray, closed: bool = False) -> np.ndarray:
+    """Unit tangents (N, 3) of the circles through three successive points; ends extrapolated."""
+    before, after = segments(points, closed)
+    inner = unit(before / dot(before, before)[:, None] + after / dot(after, after)[:, None])
+    if closed:
+        return inner
+    steps = unit(np.diff(points, axis=0))
+    return np.concatenate([[unit(1.5 * steps[0] - 0.5 * steps[1])], inner, [unit(1.5 * steps[-1] - 0.5 * steps[-2])]])
+
+
+def segments(points: np.ndarray, closed: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Edges before and after every point (closed), or every inner point (open)."""
+    if closed:
+        after = np.roll(points, -1, axis=0) - points
+        return np.roll(after, 1, axis=0), after
+    steps = np.diff(points, axis=0)
+    return steps[:-1], steps[1:]
