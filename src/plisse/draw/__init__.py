@@ -1,0 +1,1 @@
+"""Pictures and drawings: documents between geometry and file formats."""

@@ -1,0 +1,101 @@
+"""Files that appear whole or not at all: written aside, then moved into place."""
+
+import os
+import secrets
+import shutil
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from plisse.errors import PlisseError
+
+__all__ = ["require_writable", "written", "written_together"]
+
+
+@contextmanager
+def written(path: str | Path) -> Iterator[Path]:
+    """A path to write to, which becomes `path` at the end; after an exception nothing is left and nothing changed.
+
+    Raises PlisseError where the place cannot be written.
+    """
+    path = Path(path)
+    aside = _aside(path)
+    with _sentence(path):
+        try:
+            if path.is_dir():
+                raise IsADirectoryError(None, "it is a directory")
+            yield aside
+            os.replace(aside, path)
+        finally:
+            aside.unlink(missing_ok=True)
+
+
+@contextmanager
+def written_together(directory: str | Path, owned: Iterable[str] = ()) -> Iterator[Path]:
+    """A directory to write files into, which are moved into `directory` together at the end.
+
+    `owned` names files that belong to the set: those of an earlier run that this one does not write are removed,
+    so that no old file stands beside a new report. After an exception or Ctrl-C everything is as it was before.
+    Raises PlisseError where the place cannot be written.
+    """
+    directory = Path(directory)
+    with _sentence(directory), _staging(directory) as stage:
+        yield stage
+        _move_in(stage, directory, owned)
+
+
+def require_writable(directory: str | Path) -> None:
+    """Nothing; raises PlisseError where `directory` cannot be written, before hours have gone into its contents."""
+    directory = Path(directory)
+    with _sentence(directory), _staging(directory) as stage:
+        stage.joinpath("probe").touch()
+        if directory.exists() and not os.access(directory, os.W_OK):
+            raise PermissionError(None, "permission denied")
+
+
+@contextmanager
+def _staging(directory: Path) -> Iterator[Path]:
+    """An empty directory beside `directory`; it and the parents made for it vanish again where they stay empty."""
+    if directory.exists() and not directory.is_dir():
+        raise NotADirectoryError(None, "it is a file")
+    parents = [parent for parent in directory.absolute().parents if not parent.exists()]
+    stage = _aside(directory.absolute())
+    try:
+        stage.mkdir(parents=True)
+        yield stage
+    finally:
+        shutil.rmtree(stage, ignore_errors=True)
+        for parent in parents:
+            _remove_if_empty(parent)
+
+
+def _move_in(stage: Path, directory: Path, owned: Iterable[str]) -> None:
+    if not directory.exists():
+        os.replace(stage, directory)
+        return
+    names = sorted(file.name for file in stage.iterdir())
+    for name in names:
+        os.replace(stage / name, directory / name)
+    for name in set(owned) - set(names):
+        (directory / name).unlink(missing_ok=True)
+
+
+def _aside(path: Path) -> Path:
+    """A hidden name beside `path` that nobody else uses."""
+    return path.with_name(f".{path.name or 'files'}.{os.getpid()}-{secrets.token_hex(4)}")
+
+
+def _remove_if_empty(directory: Path) -> None:
+    try:
+        directory.rmdir()
+    except OSError:
+        return
+
+
+@contextmanager
+def _sentence(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        reason = (error.strerror or type(error).__name__).lower()
+        raise PlisseError(f"{path} cannot be written ({reason}); choose another place") from None
