@@ -1,15 +1,15 @@
 """What a design comes to: the structure, the way there, and the report that proves it."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Literal
 
 import msgspec
 
-from plisse.design import Design
+from plisse.recipe import Design
 from plisse.structure.pattern import Pattern
 from plisse.structure.pleated import PleatedStructure
 
-__all__ = ["Report", "Result", "Sheet", "Spread"]
+__all__ = ["Interval", "Report", "Result", "Sheet", "Spread"]
 
 
 class Spread(msgspec.Struct, frozen=True):
@@ -31,6 +31,7 @@ class Sheet(msgspec.Struct, frozen=True):
 
     overlaps: bool
     size_mm: tuple[float, float]
+    overlap_at_mm: tuple[float, float] | None = None
 
 
 class Report(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=False):
@@ -49,7 +50,10 @@ class Report(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=False):
     inverted_faces: int | None = None
     self_intersections: int | None = None
     isometry: float | None = None
-    start: dict[str, dict[str, float]] = {}
+    principal: bool = False
+    warnings: list[str] = []
+    start: dict[str, Spread] = {}
+    tried: list[str] = []
     iterations: int = 0
     method: str = ""
     seconds: dict[str, float] = {}
@@ -71,7 +75,6 @@ class Result:
     pattern: Pattern | None = None
     zigzagged: PleatedStructure | None = None
     structure: PleatedStructure | None = None
-    attempts: tuple[str, ...] = field(default=())
 
     @property
     def status(self) -> str:

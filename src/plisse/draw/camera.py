@@ -57,7 +57,7 @@ def _candidates(vertices: np.ndarray) -> list[Camera]:
     second = np.cross(upright, first)
     cameras = []
     for side in (1, -1):
-        for elevation in np.radians([32, 44, 56, 68]):
+        for elevation in np.radians([38, 48, 58, 68]):
             for azimuth in np.radians(np.arange(0, 360, 30) + 15):
                 level = np.cos(azimuth) * first + np.sin(azimuth) * second
                 direction = np.cos(elevation) * level + side * np.sin(elevation) * upright
@@ -66,18 +66,20 @@ def _candidates(vertices: np.ndarray) -> list[Camera]:
 
 
 def _score(camera: Camera, centres: np.ndarray, normals: np.ndarray, areas: np.ndarray) -> float:
-    """Visible area as seen, times how differently its faces catch the light, with a little for wide pictures."""
+    """Area as seen times share of the paper seen times contrast of its light, with a little for wide pictures."""
     seen, facing = camera.project(centres), np.abs(camera.project(normals)[:, 2])
     cell = 1.6 * np.sqrt(areas.mean())
     index = np.floor((seen[:, :2] - seen[:, :2].min(axis=0)) / cell).astype(np.int64)
     key = index[:, 1] * (index[:, 0].max() + 1) + index[:, 0]
     front = np.full(key.max() + 1, -np.inf)
     np.maximum.at(front, key, seen[:, 2])
-    visible = areas * facing * (seen[:, 2] > front[key] - 1.5 * cell)
+    in_front = seen[:, 2] > front[key] - 1.5 * cell
+    visible = areas * facing * in_front
     turned = camera.project(normals)
     turned = turned * np.sign(turned[:, 2:])
     light = turned @ unit(np.array([-0.5, 0.6, 0.62]))
     mean = np.average(light, weights=visible + 1e-12)
     contrast = np.sqrt(np.average((light - mean) ** 2, weights=visible + 1e-12))
     width, height = np.ptp(seen[:, :2], axis=0)
-    return float(visible.sum() / areas.sum() * (0.25 + contrast) * (width / (width + height)) ** 0.25)
+    shown = visible.sum() / areas.sum() * (areas * in_front * (facing > 0.1)).sum() / areas.sum()
+    return float(shown * (0.15 + contrast) * (width / (width + height)) ** 0.25)

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.ndimage import binary_closing, binary_opening
 
 from plisse.draw.camera import Camera
 from plisse.draw.raster import DepthBuffer, depth_planes, rasterise
@@ -41,7 +42,7 @@ class Rendering:
         column = np.clip((fine[:, 0] * OVERSAMPLE).astype(int), 0, width - 1)
         row = np.clip((fine[:, 1] * OVERSAMPLE).astype(int), 0, height - 1)
         seen = fine[:, 2] * OVERSAMPLE > self.buffer.depth[row, column] - slack * OVERSAMPLE
-        return _runs(fine[:, :2], seen)
+        return _runs(fine[:, :2], _without_specks(seen, 7))
 
 
 def render(structure: PleatedStructure, camera: Camera, scale: float, margin: int = 8) -> Rendering:
@@ -143,7 +144,13 @@ def _densified(path: np.ndarray, step: float) -> np.ndarray:
     return np.stack([np.interp(at, length, path[:, k]) for k in range(3)], axis=1)
 
 
+def _without_specks(seen: np.ndarray, size: int) -> np.ndarray:
+    """The mask with gaps and then islands shorter than `size` removed."""
+    padded = np.pad(seen, size, mode="edge")
+    return binary_opening(binary_closing(padded, np.ones(size)), np.ones(size))[size:-size]
+
+
 def _runs(points: np.ndarray, seen: np.ndarray) -> list[np.ndarray]:
     cuts = np.flatnonzero(np.diff(seen)) + 1
-    parts = np.split(points, cuts)
-    return [part for part, first in zip(parts, np.split(seen, cuts), strict=True) if first[0] and len(part) > 2]
+    masks = np.split(seen, cuts)
+    return [part for part, mask in zip(np.split(points, cuts), masks, strict=True) if mask[0] and len(part) > 2]

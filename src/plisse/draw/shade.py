@@ -23,8 +23,8 @@ def paper_colour(normals: np.ndarray, front: np.ndarray, sun: np.ndarray, sky: n
     above = 0.5 + 0.5 * normals[:, 1]
     through = np.clip(-(normals @ SUN), 0, 1) * 0.12
     light = 0.62 * lit + (0.36 + 0.16 * above) * sky + through
-    light = np.clip(light, 0, 1.02)[:, None]
-    return np.clip(base * light + rgb(SHADE) * 0.55 * (1 - light) ** 1.5, 0, 1)
+    bright = np.clip((light - 0.2) / 0.8, 0, 1)[:, None]
+    return base * (rgb(SHADE) + (1 - rgb(SHADE)) * bright)
 
 
 def occlusion(depth: np.ndarray, normals: np.ndarray, radius: float, directions: int = 10, steps: int = 6) -> np.ndarray:

@@ -4,7 +4,7 @@ from functools import singledispatch
 
 import numpy as np
 
-from plisse.design import Arc, Ellipse, Helix, Points, Spline, TorusKnot
+from plisse.recipe import Arc, Ellipse, Helix, Points, Spline, TorusKnot
 from plisse.errors import InvalidDesign
 from plisse.geometry.frames import curvature
 from plisse.geometry.polyline import arc_length, sample_evenly

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import msgspec
 
-from plisse.design import Curve, Design, Points, Spline
+from plisse.recipe import Curve, Design, Points, Spline
 from plisse.errors import InvalidDesign
 from plisse.io.polylines import read_polyline
 

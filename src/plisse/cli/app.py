@@ -1,0 +1,51 @@
+"""The command line as a whole: its commands and what their exit codes mean.
+
+0 exact · 1 bad input, one line on stderr · 2 wrong usage · 3 finished, but not exact or not regular · 130 interrupted.
+"""
+
+import sys
+from collections.abc import Sequence
+
+import cyclopts
+
+from plisse.cli.check import check
+from plisse.cli.gallery import gallery
+from plisse.cli.make import make
+from plisse.errors import PlisseError
+
+__all__ = ["EXACT", "INEXACT", "app", "main"]
+
+EXACT, BAD_INPUT, USAGE, INEXACT, INTERRUPTED = 0, 1, 2, 3, 130
+
+
+def _version() -> str:
+    from importlib.metadata import version
+
+    return version("plisse")
+
+
+app = cyclopts.App(
+    name="plisse", version=_version, suppress_keyboard_interrupt=False,
+    help="Design, solve, check and make surfaces folded along curves.\n\n"
+         "Exit codes: 0 exact, 1 bad input, 2 usage, 3 finished but not exact or not regular.")
+app.command(make)
+app.command(check)
+app.command(gallery)
+
+
+def main(tokens: Sequence[str] | None = None) -> int:
+    """Exit code of one command; what a user can mend is said in one line on stderr."""
+    try:
+        code = app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
+    except cyclopts.CycloptsError as error:
+        return _complain(f"{error}; see `plisse --help`", USAGE)
+    except PlisseError as error:
+        return _complain(str(error), BAD_INPUT)
+    except KeyboardInterrupt:
+        return _complain("interrupted, nothing was written", INTERRUPTED)
+    return code if isinstance(code, int) else EXACT
+
+
+def _complain(message: str, code: int) -> int:
+    print("plisse: " + " ".join(message.replace(".; see", "; see").split()), file=sys.stderr)
+    return code

@@ -1,0 +1,88 @@
+"""What people see: progress on stderr while it runs, a summary on stdout at the end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+if TYPE_CHECKING:
+    from plisse.cli.findings import Findings
+    from plisse.result import Report
+
+__all__ = ["list_designs", "progress", "show_findings", "summarise"]
+
+STYLES = {"exact": "bold green", "approximate": "bold yellow", "infeasible": "bold red"}
+
+
+@contextmanager
+def progress(quiet: bool) -> Iterator[Callable[[str, float], None]]:
+    """A callback (stage, fraction done) that draws a bar on a terminal and does nothing elsewhere."""
+    console = Console(stderr=True)
+    if quiet or not console.is_terminal:
+        yield lambda stage, fraction: None
+        return
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(40), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True) as bars:
+        task = bars.add_task("starting", total=1.0)
+        yield lambda stage, fraction: bars.update(task, description=stage, completed=fraction)
+
+
+def summarise(report: Report, directory: Path, *, title: str) -> None:
+    """Print status, numbers, reasons and files of a finished design."""
+    rows = [("vertices, faces", f"{report.vertices:,}, {report.faces:,}")]
+    for name in ("planarity", "angle_defect", "principal_defect", "crease_deviation"):
+        spread = getattr(report, name)
+        if spread is not None:
+            rows.append((name.replace("_", " "), f"max {spread.max:.1e}   mean {spread.mean:.1e}"))
+    if report.min_sector_angle_deg is not None:
+        rows.append(("smallest sector angle", f"{report.min_sector_angle_deg:.1f}°"))
+    if report.opening_angle_deg is not None:
+        rows.append(("opening angles", f"{report.opening_angle_deg.min:.1f}° to {report.opening_angle_deg.max:.1f}°"))
+    if report.development is not None:
+        width, height = report.development.size_mm
+        note = ", overlaps itself" if report.development.overlaps else ""
+        rows.append(("sheet", f"{width:.1f} × {height:.1f} mm{note}"))
+    rows.append(("seconds", f"{report.seconds.get('total', 0.0):.2f}"))
+    rows.append(("files", str(directory)))
+    _panel(title, report.status, rows, report.reasons)
+
+
+def show_findings(found: Findings, *, title: str) -> None:
+    """Print verdict, numbers and reasons of a checked mesh."""
+    rows = [("vertices, faces", f"{found.vertices:,}, {found.faces:,}")]
+    for name in ("planarity", "angle_defect", "principal_defect"):
+        spread = getattr(found, name)
+        rows.append((name.replace("_", " "), f"max {spread.max:.1e}   mean {spread.mean:.1e}"))
+    rows.append(("principal (folds flat)", "yes" if found.principal else "no"))
+    rows.append(("smallest sector angle", f"{found.min_sector_angle_deg:.1f}°"))
+    if found.opening_angle_deg is not None:
+        rows.append(("opening angles", f"{found.opening_angle_deg.min:.1f}° to {found.opening_angle_deg.max:.1f}°"))
+    rows.append(("faces folded over", str(found.inverted_faces)))
+    _panel(title, found.status, rows, found.reasons)
+
+
+def list_designs(descriptions: dict[str, str]) -> None:
+    """Print names and what they show, one a line."""
+    table = Table(box=None, show_header=False, pad_edge=False)
+    for name, text in descriptions.items():
+        table.add_row(Text(name, style="bold"), Text(text))
+    Console().print(table)
+
+
+def _panel(title: str, status: str, rows: list[tuple[str, str]], reasons: list[str]) -> None:
+    console = Console(highlight=False)
+    console.print(Text.assemble((title, "bold"), "  ", (status, STYLES.get(status, "bold"))))
+    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
+    for name, value in rows:
+        table.add_row(Text(name, style="dim"), Text(value))
+    console.print(table)
+    for reason in reasons:
+        console.print(Text(f"· {reason}"))

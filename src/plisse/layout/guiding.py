@@ -1,0 +1,69 @@
+"""The pattern of guiding curves that a design asks for, and the notes it deserves."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from plisse.recipe import Design
+from plisse.errors import Infeasible
+from plisse.geometry.curves import seed_curve
+from plisse.layout.evolve import default_smoothing, evolution_nodes, evolve
+from plisse.layout.widths import strip_widths
+from plisse.structure.pattern import Pattern
+
+__all__ = ["Guiding", "guiding"]
+
+NARROWER = (0.97, 0.94, 0.91, 0.88, 0.85)
+
+
+@dataclass(frozen=True, eq=False)
+class Guiding:
+    """A pattern at the resolution of its evolution, the samples to solve at, and sentences about compromises."""
+
+    pattern: Pattern
+    samples: int
+    notes: list[str] = field(default_factory=list)
+
+
+def guiding(design: Design, smoothing_factor: float = 1.0) -> Guiding:
+    """Pattern for a design; strips are narrowed by up to 15 % where they would just run into the focal set.
+
+    Raises Infeasible where the pattern collapses even so, InvalidDesign for straight seeds.
+    """
+    samples, notes = _samples(design)
+    try:
+        return Guiding(_evolved(design, 1.0, smoothing_factor), samples, notes)
+    except Infeasible as error:
+        collapse = error
+    for scale in NARROWER:
+        try:
+            pattern = _evolved(design, scale, smoothing_factor)
+        except Infeasible:
+            continue
+        note = (f"pattern.width was narrowed to {100 * scale:.0f} % because otherwise {collapse}")
+        return Guiding(pattern, samples, [*notes, note])
+    raise collapse
+
+
+def _samples(design: Design) -> tuple[int, list[str]]:
+    """Samples to solve at: a closed principal structure needs an odd number of columns to close."""
+    samples = design.pattern.samples
+    if design.curve.closed and design.solve.principal and samples % 2 == 0:
+        return samples + 1, [f"pattern.samples was raised from {samples} to {samples + 1}, because closed principal "
+                             "structures close exactly for odd numbers"]
+    return samples, []
+
+
+def _evolved(design: Design, scale: float, smoothing_factor: float) -> Pattern:
+    recipe, closed = design.pattern, design.curve.closed
+    theta = np.radians(np.broadcast_to(np.asarray(recipe.theta, float), recipe.creases))
+    nodes = evolution_nodes(seed_curve(design.curve, 200), closed)
+    seed = seed_curve(design.curve, nodes)
+    parameters = np.linspace(0, 1, nodes, endpoint=not closed)
+    widths = scale * strip_widths(recipe.width, theta, recipe.amplitude, parameters, closed=closed,
+                                  spacing=recipe.spacing)
+    if recipe.method == "paper":
+        from plisse.layout.paper_evolution import evolve_literally
+        return evolve_literally(seed, theta, widths, closed=closed)
+    smoothing = default_smoothing(seed, closed) if recipe.smoothing is None else recipe.smoothing
+    return evolve(seed, theta, widths, closed=closed, smoothing=min(smoothing_factor * smoothing, 1.0))

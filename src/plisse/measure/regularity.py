@@ -1,0 +1,50 @@
+"""Regularity: what makes an exact mesh foldable. Sector angles, inverted faces, self-intersection in space."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from plisse.geometry.vectors import dot
+from plisse.measure.folds import crease_opening_angles
+from plisse.measure.planarity import face_normals
+from plisse.measure.sectors import sector_angles
+from plisse.structure.topology import Topology
+
+__all__ = ["MIN_SECTOR", "OPENING_RANGE", "Regularity", "inverted_faces", "regularity"]
+
+MIN_SECTOR = np.radians(5.0)
+OPENING_RANGE = (np.radians(2.0), np.radians(178.0))
+
+
+@dataclass(frozen=True)
+class Regularity:
+    """Smallest sector angle, extremes of the opening angles (radians), number of inverted faces."""
+
+    min_sector: float
+    min_opening: float
+    max_opening: float
+    inverted: int
+
+    @property
+    def is_regular(self) -> bool:
+        """Whether every limit of the contract is kept."""
+        return bool(self.min_sector >= MIN_SECTOR and self.min_opening > OPENING_RANGE[0]
+                    and self.max_opening < OPENING_RANGE[1] and self.inverted == 0)
+
+
+def regularity(topology: Topology, vertices: np.ndarray) -> Regularity:
+    """Regularity of a structure; without inner creases openings count as half open (π/2)."""
+    opening = crease_opening_angles(topology, vertices)
+    if len(opening) == 0:
+        opening = np.array([np.pi / 2])
+    return Regularity(float(sector_angles(topology, vertices).min()), float(opening.min()), float(opening.max()),
+                      int(inverted_faces(topology, vertices).sum()))
+
+
+def inverted_faces(topology: Topology, vertices: np.ndarray) -> np.ndarray:
+    """Mask (F,) of faces with a corner that turns the wrong way: non-convex or folded over."""
+    corners = topology.corners
+    origin = vertices[corners.vertex]
+    turn = np.cross(vertices[corners.next] - origin, vertices[corners.previous] - origin)
+    wrong = dot(turn, face_normals(topology, vertices)[corners.face]) <= 0
+    return np.bincount(corners.face, wrong, topology.face_count) > 0

@@ -1,0 +1,61 @@
+"""The one judgement that decides about attempts and about the status of a result."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from plisse.measure.planarity import planarity_defect
+from plisse.measure.regularity import Regularity, regularity
+from plisse.measure.sectors import angle_defect, principal_defect
+from plisse.structure.topology import Topology
+
+__all__ = ["EXACT", "Verdict", "judge"]
+
+EXACT = 1e-9
+COMFORTABLE_SECTOR = np.radians(15.0)
+FAR = 3.0
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Defects (largest values), regularity, and largest deviation from the guides in amplitudes."""
+
+    planarity: float
+    angle: float
+    principal: float
+    regularity: Regularity
+    deviation: float
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether all defects asked for are within 1e-9."""
+        return max(self.planarity, self.angle, self.principal) <= EXACT
+
+    @property
+    def is_good(self) -> bool:
+        """Exact, regular, and near its guides."""
+        return self.is_exact and self.regularity.is_regular and self.deviation < FAR
+
+    @property
+    def is_comfortable(self) -> bool:
+        """So good that no other way needs to be tried."""
+        return self.is_good and self.regularity.min_sector > COMFORTABLE_SECTOR and self.deviation < 2
+
+    @property
+    def rank(self) -> tuple:
+        """Sort key: exactness, regularity, nearness, then the smallest sector angle up to comfort."""
+        sector = min(self.regularity.min_sector, COMFORTABLE_SECTOR)
+        defect = max(self.planarity, self.angle, self.principal)
+        return (self.is_good, self.is_exact and self.regularity.is_regular, self.is_exact,
+                self.is_comfortable, sector if self.is_exact else -defect, -self.deviation)
+
+
+def judge(topology: Topology, vertices: np.ndarray, *, principal: bool, deviation: float) -> Verdict:
+    """Verdict on vertices (V, 3); the principal defect counts only where it is asked for."""
+    return Verdict(
+        float(planarity_defect(topology, vertices).max()),
+        float(np.abs(angle_defect(topology, vertices)).max()),
+        float(principal_defect(topology, vertices).max()) if principal else 0.0,
+        regularity(topology, vertices),
+        deviation,
+    )

@@ -1,0 +1,101 @@
+"""The paper's paragraph (§3): evolve a pattern, zigzag it, make it exact, lay it flat, and say how good it is."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import msgspec
+import numpy as np
+
+from plisse.assess import assess, start_defects
+from plisse.recipe import Design
+from plisse.errors import Infeasible
+from plisse.io.designs import check_design, design_from_dict, read_design
+from plisse.layout.guiding import Guiding, guiding
+from plisse.result import Report, Result
+from plisse.solve.attempt import Start
+from plisse.solve.cutting import best_cut
+from plisse.solve.flatten import flatten
+from plisse.solve.forecast import forecast
+from plisse.solve.portfolio import GENERAL, PRINCIPAL, Outcome, solve
+from plisse.solve.zigzag import zigzag
+from plisse.stopwatch import Stopwatch
+from plisse.structure.pleated import PleatedStructure
+
+__all__ = ["design"]
+
+Progress = Callable[[str, float], None]
+
+
+def design(recipe: Design | dict | str | Path, *, progress: Progress | None = None) -> Result:
+    """The structure that a recipe asks for, with the pattern it follows and the report that proves it.
+
+    `recipe` is a Design, nested dictionaries as in TOML, or the path of a design file. `progress(stage, fraction)` is
+    called as work goes on. Raises InvalidDesign for impossible recipes; geometry that breaks down on the way is
+    reported (status "infeasible"), not raised.
+    """
+    recipe = _checked(recipe)
+    watch = Stopwatch(progress)
+    watch.start("evolve", 0.0)
+    try:
+        guide = guiding(recipe)
+    except Infeasible as error:
+        return _broken_down(recipe, str(error), watch)
+    watch.start("solve", 0.2)
+    zigzagged = zigzag(guide.pattern.resampled(guide.samples), recipe.pattern.amplitude)
+    foreseen = forecast(guide.pattern, recipe.pattern.amplitude, recipe.solve.principal).warnings()
+    if recipe.solve.method == "paper":
+        return _by_the_paper(recipe, guide, zigzagged, foreseen, watch)
+    outcome = solve(_starts(recipe, guide), PRINCIPAL if recipe.solve.principal else GENERAL)
+    best = outcome.best
+    if best.attempt.vertices is None:
+        return _broken_down(recipe, best.attempt.message, watch, guide, zigzagged, foreseen)
+    watch.start("flatten", 0.6)
+    structure = PleatedStructure(best.start.topology, best.attempt.vertices)
+    structure = flatten(structure, best_cut(structure, recipe.solve.cut))
+    watch.start("measure", 0.8)
+    report = assess(structure, principal=recipe.solve.principal, design=recipe,
+                    guides=best.start.guides(guide.samples), amplitude=recipe.pattern.amplitude, units=recipe.units)
+    report = msgspec.structs.replace(
+        report, start=start_defects(zigzagged), iterations=best.attempt.iterations, method=best.attempt.method,
+        history=[float(value) for value in best.attempt.history], tried=_said_of(outcome), seconds=watch.stop(),
+        warnings=guide.notes + foreseen, reasons=report.reasons + (foreseen if report.reasons else []))
+    return Result(recipe, report, best.start.pattern, zigzagged, structure)
+
+
+def _checked(recipe: Design | dict | str | Path) -> Design:
+    if isinstance(recipe, Design):
+        return check_design(recipe)
+    return design_from_dict(recipe) if isinstance(recipe, dict) else read_design(recipe)
+
+
+def _starts(recipe: Design, guide: Guiding) -> Iterator[Start]:
+    """The pattern as designed, then patterns whose binormals are smoothed more or less."""
+    amplitude, principal = recipe.pattern.amplitude, recipe.solve.principal
+    yield Start(guide.pattern, amplitude, guide.samples, principal)
+    for factor in (0.5, 2.0):
+        try:
+            other = guiding(recipe, smoothing_factor=factor)
+        except Infeasible:
+            continue
+        yield Start(other.pattern, amplitude, other.samples, principal, f"binormals smoothed {factor:g} times as far")
+
+
+def _said_of(outcome: Outcome) -> list[str]:
+    """One line per attempt that was not chosen."""
+    lines = []
+    for judged in outcome.tried:
+        if judged is outcome.best:
+            continue
+        verdict = judged.verdict
+        what = judged.attempt.message if verdict is None else (
+            f"planarity {verdict.planarity:.1e}, angles {max(verdict.angle, verdict.principal):.1e}, smallest sector "
+            f"{np.degrees(verdict.regularity.min_sector):.1f}°, deviation {verdict.deviation:.2f} amplitudes")
+        lines.append(": ".join(part for part in (judged.attempt.method, judged.start.label, what) if part))
+    return lines
+
+
+def _broken_down(recipe: Design, reason: str, watch: Stopwatch, guide: Guiding | None = None,
+                 zigzagged: PleatedStructure | None = None, foreseen: list[str] | None = None) -> Result:
+    report = Report(status="infeasible", reasons=[reason, *(foreseen or [])], seconds=watch.stop(),
+                    units=recipe.units, design=recipe.to_dict())
+    return Result(recipe, report, guide.pattern if guide else None, zigzagged)

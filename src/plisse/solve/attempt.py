@@ -1,0 +1,48 @@
+"""Where a solver starts and what an attempt comes to."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from plisse.solve.zigzag import zigzag_curves
+from plisse.structure.grid import grid
+from plisse.structure.pattern import Pattern
+from plisse.structure.topology import Topology
+
+__all__ = ["Attempt", "Start"]
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """A pattern (at its own resolution), the amplitude d, the number of samples wanted, and the property wanted."""
+
+    pattern: Pattern
+    amplitude: float
+    samples: int
+    principal: bool = False
+    label: str = ""
+
+    @cached_property
+    def topology(self) -> Topology:
+        """The grid of the structure wanted."""
+        return self.grid(self.samples)
+
+    def grid(self, samples: int) -> Topology:
+        """The same grid with another number of samples."""
+        return grid(self.pattern.creases, samples, closed_creases=self.pattern.closed)
+
+    def guides(self, samples: int) -> np.ndarray:
+        """Zigzag curves (m, samples, 3) that the creases should follow, in model units."""
+        return zigzag_curves(self.pattern.resampled(samples), self.amplitude)
+
+
+@dataclass(frozen=True, eq=False)
+class Attempt:
+    """One way's result: vertices (V, 3) in model units, or None with a message why there is none."""
+
+    method: str
+    vertices: np.ndarray | None
+    message: str = ""
+    iterations: int = 0
+    history: tuple[float, ...] = ()

@@ -1,0 +1,80 @@
+"""The optimised way (§3.4): anneal the zigzag on few columns, refine its displacement, polish to round-off."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from plisse.geometry.vectors import norm
+from plisse.solve.anneal import WEIGHTS, anneal
+from plisse.solve.attempt import Attempt, Start
+from plisse.solve.constraints import Constraints
+from plisse.solve.linear import NotPositiveDefinite
+from plisse.solve.polish import polish
+from plisse.structure.pattern import interpolate_along
+
+__all__ = ["CoarseToFine"]
+
+MIDDLE_COLUMNS = 160
+
+
+@dataclass(frozen=True)
+class CoarseToFine:
+    """Anneals on `columns` columns with `steps` Gauss–Newton steps per weight, then only polishes finer levels."""
+
+    name: str
+    columns: int = 40
+    steps: int = 1
+    fairness: Mapping[str, float] = field(default_factory=dict)
+
+    def __call__(self, start: Start) -> Attempt:
+        """The attempt on a start; numerical breakdown is a message, not an exception."""
+        displacement, history, iterations = None, [], 0
+        try:
+            for samples in self._levels(start):
+                level = _Level(start, samples)
+                vertices = level.rest if displacement is None else level.displaced(displacement)
+                if displacement is None:
+                    vertices = anneal(level.topology, vertices, principal=start.principal, steps=self.steps,
+                                      **self.fairness)
+                    iterations += self.steps * len(WEIGHTS)
+                last = samples == start.samples
+                done = polish(Constraints(level.topology, start.principal), vertices, chord=last and samples > 60,
+                              steps=12 if last else 8 if displacement is None else 2)
+                iterations += len(done.history) - 2
+                history += done.history[:-1]
+                displacement = level.displacement(done.vertices)
+        except NotPositiveDefinite as error:
+            return Attempt(self.name, None, f"the linear systems break down: {error}", iterations, tuple(history))
+        if not np.isfinite(displacement).all():
+            return Attempt(self.name, None, "the iteration diverges", iterations, tuple(history))
+        vertices = (start.guides(start.samples) + displacement).reshape(-1, 3)
+        return Attempt(self.name, vertices, "", iterations, tuple(history))
+
+    def _levels(self, start: Start) -> list[int]:
+        coarse = max(self.columns, 60 if start.pattern.closed else 0)
+        levels = [coarse] if coarse < start.samples else []
+        if start.samples >= 400:
+            levels.append(MIDDLE_COLUMNS)
+        return [*levels, start.samples]
+
+
+class _Level:
+    """One resolution, in units of its mean edge length along creases."""
+
+    def __init__(self, start: Start, samples: int):
+        self._guides = start.guides(samples)
+        self._closed = start.pattern.closed
+        self._unit = float(norm(np.diff(self._guides, axis=1)).mean())
+        self.topology = start.grid(samples)
+        self.rest = np.ascontiguousarray((self._guides / self._unit).reshape(-1, 3).T)
+
+    def displaced(self, displacement: np.ndarray) -> np.ndarray:
+        """Vertices (3, V) for a displacement (m, n', 3) from another level."""
+        parameters = np.linspace(0, 1, self._guides.shape[1], endpoint=not self._closed)
+        fine = interpolate_along(displacement, self._closed, 3)(parameters).swapaxes(0, 1)
+        return self.rest + (fine / self._unit).reshape(-1, 3).T
+
+    def displacement(self, vertices: np.ndarray) -> np.ndarray:
+        """Displacement (m, n, 3) of vertices (3, V) from the guides, in model units."""
+        return ((vertices - self.rest) * self._unit).T.reshape(self._guides.shape)

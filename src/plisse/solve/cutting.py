@@ -1,0 +1,44 @@
+"""Where to cut a closed structure so that it can be laid flat."""
+
+import numpy as np
+
+from plisse.solve.flatten import laid_out, unfold
+from plisse.structure.cut import Cut, cut_along, uncut
+from plisse.structure.pleated import PleatedStructure
+from plisse.structure.topology import Polyline
+
+__all__ = ["best_cut"]
+
+CANDIDATES = 8
+
+
+def best_cut(structure: PleatedStructure, percent: float | None = None) -> Cut:
+    """The transverse polyline along which a closed structure opens into the smallest sheet without overlap.
+
+    `percent` of the crease's length names the cut instead. Simply connected structures are not cut; structures whose
+    family closes are cut along a crease.
+    """
+    topology = structure.topology
+    if topology.euler_characteristic >= 1:
+        return uncut(topology)
+    if not any(crease.closed for crease in topology.creases):
+        return _smallest(structure, [topology.creases[0]])
+    lines = [line for line in topology.rulings if not line.closed]
+    along = topology.creases[0].vertices
+    rank = {int(vertex): k for k, vertex in enumerate(along)}
+    lines = sorted((line for line in lines if int(line.vertices[0]) in rank), key=lambda line: rank[int(line.vertices[0])])
+    if percent is not None:
+        return cut_along(topology, lines[round(percent / 100 * len(lines)) % len(lines)])
+    chosen = [lines[k] for k in np.unique(np.linspace(0, len(lines), CANDIDATES, endpoint=False).astype(int))]
+    return _smallest(structure, chosen)
+
+
+def _smallest(structure: PleatedStructure, lines: list[Polyline]) -> Cut:
+    from plisse.measure.overlap import development_overlap
+
+    scored = []
+    for line in lines:
+        cut = cut_along(structure.topology, line)
+        flat = laid_out(cut.topology, unfold(cut.topology, structure.vertices[cut.source]))
+        scored.append((development_overlap(cut.topology, flat).overlaps, float(np.prod(np.ptp(flat, axis=0))), cut))
+    return min(scored, key=lambda entry: entry[:2])[2]

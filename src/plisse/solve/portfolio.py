@@ -1,0 +1,73 @@
+"""Several ways to an exact structure, tried in order, judged alike; the best and the others' reasons are kept."""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+
+from plisse.measure.deviation import crease_deviation
+from plisse.measure.verdict import Verdict, judge
+from plisse.solve.attempt import Attempt, Start
+from plisse.solve.coarse_to_fine import CoarseToFine
+
+__all__ = ["GENERAL", "PRINCIPAL", "Judged", "Outcome", "solve"]
+
+Way = Callable[[Start], Attempt]
+
+STIFF = {"along": 1.0, "same_side": 0.09, "across": 0.03}
+OPTIMISED = CoarseToFine("optimised")
+GENTLE = CoarseToFine("optimised in small steps", columns=60, steps=2, fairness=STIFF)
+
+GENERAL: tuple[Way, ...] = (OPTIMISED, GENTLE)
+PRINCIPAL: tuple[Way, ...] = (OPTIMISED, GENTLE)
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """An attempt with the start it was made from and the verdict on it (None where there are no vertices)."""
+
+    start: Start
+    attempt: Attempt
+    verdict: Verdict | None
+
+    @property
+    def rank(self) -> tuple:
+        """Sort key; attempts without vertices come last."""
+        return (self.verdict is not None, *(self.verdict.rank if self.verdict else ()))
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """The best attempt and all attempts in the order in which they were made."""
+
+    best: Judged
+    tried: tuple[Judged, ...]
+
+
+def solve(starts: Iterable[Start], ways: tuple[Way, ...]) -> Outcome:
+    """The best of all ways on all starts; stops at the first that is comfortable."""
+    tried: list[Judged] = []
+    for judged in _attempts(starts, ways):
+        tried.append(judged)
+        if judged.verdict is not None and judged.verdict.is_comfortable:
+            break
+    return Outcome(max(tried, key=lambda judged: judged.rank), tuple(tried))
+
+
+def _attempts(starts: Iterable[Start], ways: tuple[Way, ...]) -> Iterator[Judged]:
+    good = False
+    for start in starts:
+        if good:  # other starts are for designs that nothing has solved yet
+            return
+        for way in ways:
+            attempt = way(start)
+            verdict = _judge(start, attempt)
+            good = good or (verdict is not None and verdict.is_good)
+            yield Judged(start, attempt, verdict)
+
+
+def _judge(start: Start, attempt: Attempt) -> Verdict | None:
+    if attempt.vertices is None:
+        return None
+    guides = start.guides(start.samples)
+    distance = crease_deviation(attempt.vertices.reshape(guides.shape), guides, start.pattern.closed)
+    return judge(start.topology, attempt.vertices, principal=start.principal,
+                 deviation=float(distance.max()) / start.amplitude)

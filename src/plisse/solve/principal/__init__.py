@@ -1,0 +1,6 @@
+"""Principal pleated structures by explicit construction, fitted to guiding creases (§2.4, §2.5)."""
+
+from plisse.solve.principal.fit import PrincipalFit, fit_candidates, fit_principal
+from plisse.solve.principal.numbers import PrincipalNumbers
+
+__all__ = ["PrincipalFit", "PrincipalNumbers", "fit_candidates", "fit_principal"]
