@@ -51,17 +51,16 @@ def findings(structure: PleatedStructure) -> Findings:
     interior = ~topology.is_boundary
     opening = np.degrees(crease_opening_angles(topology, vertices))
     conical = _spread(principal_defect(topology, vertices)[interior])
-    numbers = {
-        "planarity": _spread(planarity_defect(topology, vertices)),
-        "angle_defect": _spread(angle_defect(topology, vertices)[interior]),
-        "min_sector_angle_deg": float(np.degrees(sector_angles(topology, vertices)).min()),
-        "opening_angle_deg": Interval(float(opening.min()), float(opening.max())) if len(opening) else None,
-        "inverted_faces": _inverted(structure),
-    }
-    reasons = _reasons(**numbers)
-    return Findings(status="approximate" if reasons else "exact", reasons=reasons,
-                    principal=bool(interior.any()) and conical.max <= EXACT, principal_defect=conical,
-                    vertices=topology.vertex_count, faces=topology.face_count, **numbers)
+    found = Findings(
+        status="exact", reasons=[], vertices=topology.vertex_count, faces=topology.face_count,
+        planarity=_spread(planarity_defect(topology, vertices)),
+        angle_defect=_spread(angle_defect(topology, vertices)[interior]),
+        principal_defect=conical, principal=bool(interior.any()) and conical.max <= EXACT,
+        min_sector_angle_deg=float(np.degrees(sector_angles(topology, vertices)).min()),
+        opening_angle_deg=Interval(float(opening.min()), float(opening.max())) if len(opening) else None,
+        inverted_faces=_inverted(structure))
+    reasons = _reasons(found)
+    return msgspec.structs.replace(found, reasons=reasons, status="approximate" if reasons else "exact")
 
 
 def findings_json(found: Findings) -> str:
@@ -69,21 +68,23 @@ def findings_json(found: Findings) -> str:
     return msgspec.json.format(msgspec.json.encode(found), indent=2).decode() + "\n"
 
 
-def _reasons(planarity: Spread, angle_defect: Spread, min_sector_angle_deg: float,
-             opening_angle_deg: Interval | None, inverted_faces: int) -> list[str]:
+def _reasons(found: Findings) -> list[str]:
+    """One sentence for everything that keeps a structure from being exact and regular."""
     reasons = []
-    if not planarity.max <= EXACT:
-        reasons.append(f"faces are not planar: the defect reaches {planarity.max:.1e}, {EXACT:g} counts as exact")
-    if not angle_defect.max <= EXACT:
-        reasons.append(f"the sheet does not lie flat: angles around a vertex miss 360° by {angle_defect.max:.1e}")
-    if not min_sector_angle_deg >= LEAST_SECTOR:
-        reasons.append(f"faces are slivers: the smallest angle is {min_sector_angle_deg:.1f}°")
-    if opening_angle_deg is not None and opening_angle_deg.min < LEAST_OPENING:
-        reasons.append(f"creases are folded shut: the smallest opening angle is {opening_angle_deg.min:.1f}°")
-    if opening_angle_deg is not None and opening_angle_deg.max > MOST_OPENING:
-        reasons.append(f"creases hardly fold: the largest opening angle is {opening_angle_deg.max:.1f}°")
-    if inverted_faces:
-        reasons.append(f"faces are folded over: {inverted_faces} of them are not convex")
+    planarity, angle, sector = found.planarity.max, found.angle_defect.max, found.min_sector_angle_deg
+    if not planarity <= EXACT:
+        reasons.append(f"faces are not planar: the defect reaches {planarity:.1e}, {EXACT:g} counts as exact")
+    if not angle <= EXACT:
+        reasons.append(f"the sheet does not lie flat: angles around a vertex miss 360° by {angle:.1e} radians")
+    if not sector >= LEAST_SECTOR:
+        reasons.append(f"faces are slivers: the smallest angle is {sector:.1f}°")
+    opening = found.opening_angle_deg
+    if opening is not None and not opening.min >= LEAST_OPENING:
+        reasons.append(f"creases are folded shut: the smallest opening angle is {opening.min:.1f}°")
+    if opening is not None and not opening.max <= MOST_OPENING:
+        reasons.append(f"creases hardly fold: the largest opening angle is {opening.max:.1f}°")
+    if found.inverted_faces:
+        reasons.append(f"faces are folded over: {found.inverted_faces} of them are not convex")
     return reasons
 
 

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plisse.recipe import MILLIMETRES
 from plisse.draw.runs import lettered_runs
 from plisse.draw.sheet import front_up
+from plisse.recipe import MILLIMETRES
 from plisse.structure.pleated import PleatedStructure
 
 __all__ = ["Drawing", "Layer", "Line", "crease_pattern"]

@@ -4,7 +4,6 @@ from pathlib import Path
 
 import numpy as np
 
-from plisse.recipe import MILLIMETRES
 from plisse.draw import colours
 from plisse.draw.camera import best_view
 from plisse.draw.drawing import crease_pattern
@@ -13,6 +12,7 @@ from plisse.draw.render import Rendering, render
 from plisse.draw.runs import lettered_runs
 from plisse.measure.planarity import planarity_defect
 from plisse.measure.sectors import angle_defect
+from plisse.recipe import MILLIMETRES
 from plisse.result import Result
 from plisse.structure.pleated import PleatedStructure
 

@@ -29,7 +29,6 @@ def paper_colour(normals: np.ndarray, front: np.ndarray, sun: np.ndarray, sky: n
 
 def occlusion(depth: np.ndarray, normals: np.ndarray, radius: float, directions: int = 10, steps: int = 6) -> np.ndarray:
     """How open the sky is (H, W) in 0…1 over a depth map in pixels: horizons in some directions out to `radius`."""
-    height, width = depth.shape
     safe = np.where(np.isfinite(depth), depth, -1e6).astype(np.float32)
     up = np.maximum(normals[..., 2], 0.15)
     lost = np.zeros_like(safe)

@@ -25,7 +25,7 @@ def written(path: str | Path) -> Iterator[Path]:
             if path.is_dir():
                 raise IsADirectoryError(None, "it is a directory")
             yield aside
-            os.replace(aside, path)
+            aside.replace(path)
         finally:
             aside.unlink(missing_ok=True)
 
@@ -71,11 +71,11 @@ def _staging(directory: Path) -> Iterator[Path]:
 
 def _move_in(stage: Path, directory: Path, owned: Iterable[str]) -> None:
     if not directory.exists():
-        os.replace(stage, directory)
+        stage.replace(directory)
         return
     names = sorted(file.name for file in stage.iterdir())
     for name in names:
-        os.replace(stage / name, directory / name)
+        (stage / name).replace(directory / name)
     for name in set(owned) - set(names):
         (directory / name).unlink(missing_ok=True)
 

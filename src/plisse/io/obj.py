@@ -1,6 +1,7 @@
 """Wavefront OBJ: quads as faces, creases as polylines, written and read."""
 
 from importlib.metadata import version
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -89,7 +90,7 @@ def _index(field: str, count: int) -> int:
 
 def _marked(lines: list[list[int]]):
     """Evidence from polylines: 1 on their edges, 0 elsewhere."""
-    marked = {frozenset(edge) for line in lines for edge in zip(line, line[1:], strict=False)}
+    marked = {frozenset(edge) for line in lines for edge in pairwise(line)}
 
     def evidence(start: np.ndarray, end: np.ndarray) -> np.ndarray:
         return np.array([float(frozenset(edge) in marked)

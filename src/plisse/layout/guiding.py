@@ -30,9 +30,9 @@ def guiding(design: Design, smoothing_factor: float = 1.0) -> Guiding:
 
     Raises Infeasible where the pattern collapses even so, InvalidDesign for straight seeds.
     """
-    samples, notes = _samples(design)
+    samples = design.pattern.samples
     try:
-        return Guiding(_evolved(design, 1.0, smoothing_factor), samples, notes)
+        return Guiding(_evolved(design, 1.0, smoothing_factor), samples)
     except Infeasible as error:
         collapse = error
     for scale in NARROWER:
@@ -41,17 +41,8 @@ def guiding(design: Design, smoothing_factor: float = 1.0) -> Guiding:
         except Infeasible:
             continue
         note = (f"pattern.width was narrowed to {100 * scale:.0f} % because otherwise {collapse}")
-        return Guiding(pattern, samples, [*notes, note])
+        return Guiding(pattern, samples, [note])
     raise collapse
-
-
-def _samples(design: Design) -> tuple[int, list[str]]:
-    """Samples to solve at: a closed principal structure needs an odd number of columns to close."""
-    samples = design.pattern.samples
-    if design.curve.closed and design.solve.principal and samples % 2 == 0:
-        return samples + 1, [f"pattern.samples was raised from {samples} to {samples + 1}, because closed principal "
-                             "structures close exactly for odd numbers"]
-    return samples, []
 
 
 def _evolved(design: Design, scale: float, smoothing_factor: float) -> Pattern:

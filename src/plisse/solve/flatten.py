@@ -45,14 +45,13 @@ def isometry_error(structure: PleatedStructure) -> float:
 
 def unfold(topology: Topology, vertices: np.ndarray) -> np.ndarray:
     """Development (V, 2) by turning face after face into the plane of the middle one."""
-    local = _local_coordinates(topology, vertices)
-    levels = _face_tree(topology)
+    local, following = _local_coordinates(topology, vertices), _following(topology)
+    direction = np.angle(local[following] - local)
     rotation, translation = np.zeros(topology.face_count), np.zeros(topology.face_count, complex)
-    for child, parent, at_child, at_parent in levels:
-        turn = _edge_angle(topology, local, at_parent) - _edge_angle(topology, local, at_child)
+    for child, parent, at_child, at_parent in _face_tree(topology):
         # the two faces run through their common edge in opposite directions
-        rotation[child] = rotation[parent] + turn + np.pi
-        joint = local[at_parent], local[_following(topology)[at_child]]
+        rotation[child] = rotation[parent] + direction[at_parent] - direction[at_child] + np.pi
+        joint = local[at_parent], local[following[at_child]]
         translation[child] = (translation[parent] + np.exp(1j * rotation[parent]) * joint[0]
                               - np.exp(1j * rotation[child]) * joint[1])
     corners = topology.corners
@@ -126,11 +125,6 @@ def _following(topology: Topology) -> np.ndarray:
     return following
 
 
-def _edge_angle(topology: Topology, local: np.ndarray, corner: np.ndarray) -> np.ndarray:
-    """Direction of the edge that leaves each corner, in its face's plane."""
-    return np.angle(local[_following(topology)[corner]] - local[corner])
-
-
 def _face_tree(topology: Topology) -> list[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]]:
     """Breadth-first levels from a middle face: children, parents and their corners at the common edge."""
     corners = topology.corners
@@ -144,8 +138,8 @@ def _face_tree(topology: Topology) -> list[tuple[np.ndarray, np.ndarray, np.ndar
     root = _middle(link)
     sequence, parent = breadth_first_order(link, root, directed=False)
     depth = np.zeros(topology.face_count, np.int64)
-    for face in sequence[1:]:
-        depth[face] = depth[parent[face]] + 1
+    for face, above in zip(sequence[1:].tolist(), parent[sequence[1:]].tolist(), strict=True):
+        depth[face] = depth[above] + 1
     children = sequence[1:]
     at_parent = np.asarray(link[parent[children], children]).ravel().astype(np.int64) - 1
     at_child = np.asarray(link[children, parent[children]]).ravel().astype(np.int64) - 1
