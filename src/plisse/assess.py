@@ -2,17 +2,14 @@
 
 import numpy as np
 
-from plisse.recipe import MILLIMETRES, Design
 from plisse.measure.deviation import crease_deviation
-from plisse.measure.folds import crease_opening_angles
-from plisse.measure.intersection import intersecting_faces
-from plisse.measure.overlap import development_overlap
+from plisse.measure.measurements import Measurements, measure
 from plisse.measure.planarity import planarity_defect
-from plisse.measure.regularity import MIN_SECTOR, OPENING_RANGE, regularity
-from plisse.measure.sectors import angle_defect, principal_defect, sector_angles
+from plisse.measure.regularity import MIN_SECTOR, OPENING_RANGE
+from plisse.measure.sectors import angle_defect
 from plisse.measure.verdict import EXACT
+from plisse.recipe import MILLIMETRES
 from plisse.result import Interval, Report, Sheet, Spread
-from plisse.solve.flatten import isometry_error
 from plisse.structure.place import place_of
 from plisse.structure.pleated import PleatedStructure
 
@@ -21,40 +18,36 @@ __all__ = ["assess", "spread", "start_defects"]
 ISOMETRIC = 1e-9
 
 
-def assess(structure: PleatedStructure, *, principal: bool = False, design: Design | None = None,
-           guides: np.ndarray | None = None, amplitude: float = 1.0, units: str = "mm") -> Report:
-    """Report on a structure: status, reasons, and every measure; `guides` (m, n, 3) where creases were guided.
+def assess(structure: PleatedStructure, *, principal: bool = False, guides: np.ndarray | None = None,
+           amplitude: float = 1.0, units: str = "mm") -> Report:
+    """Report on a structure: status, reasons, and every measure.
 
-    `principal` says whether the principal defect belongs to the status. Timings and the way there are added by
-    the pipeline.
+    `principal` says whether the principal defect belongs to the status; `guides` (m, n, 3) are the curves that the
+    creases should follow, `amplitude` the unit of their deviation. The pipeline adds timings and the way there.
     """
-    topology, vertices = structure.topology, structure.vertices
-    reasons = (_inexact(structure, principal) + _irregular(structure) + _intersecting(structure)
-               + _not_isometric(structure))
-    inner = ~topology.is_boundary
-    angle, kawasaki = angle_defect(topology, vertices)[inner], principal_defect(topology, vertices)[inner]
-    quality = regularity(topology, vertices)
-    planarity = planarity_defect(topology, vertices)
-    defects = [spread(planarity), spread(angle)] + ([spread(kawasaki)] if principal else [])
-    exact = max(defect.max for defect in defects) <= EXACT
+    found, inner = measure(structure), ~structure.topology.is_boundary
+    defects = [spread(found.planarity), spread(found.angle[inner])]
+    kawasaki = spread(found.principal[inner])
+    exact = max(defect.max for defect in [*defects, *([kawasaki] if principal else [])]) <= EXACT
+    reasons = [*_inexact(structure, found, principal), *_irregular(structure, found), *_not_isometric(found)]
+    degrees = np.degrees(found.openings)
     return Report(
         status="exact" if not reasons else "infeasible" if exact else "approximate",
         reasons=reasons,
-        vertices=topology.vertex_count,
-        faces=topology.face_count,
-        planarity=spread(planarity),
-        angle_defect=spread(angle),
-        principal_defect=spread(kawasaki),
-        principal=bool(spread(kawasaki).max <= EXACT),
-        min_sector_angle_deg=float(np.degrees(quality.min_sector)),
-        opening_angle_deg=Interval(float(np.degrees(quality.min_opening)), float(np.degrees(quality.max_opening))),
+        vertices=structure.topology.vertex_count,
+        faces=structure.topology.face_count,
+        planarity=defects[0],
+        angle_defect=defects[1],
+        principal_defect=kawasaki,
+        principal=bool(inner.any() and exact and kawasaki.max <= EXACT),
+        min_sector_angle_deg=float(np.degrees(found.sectors.min())),
+        opening_angle_deg=Interval(float(degrees.min()), float(degrees.max())) if degrees.size else None,
         crease_deviation=_deviation(structure, guides, amplitude),
-        inverted_faces=quality.inverted,
-        self_intersections=len(intersecting_faces(topology, vertices)),
-        isometry=isometry_error(structure) if structure.development is not None else None,
-        development=_sheet(structure, units),
+        inverted_faces=int(found.inverted.sum()),
+        self_intersections=len(found.intersections),
+        isometry=found.isometry,
+        development=_sheet(structure, found, units),
         units=units,
-        design=design.to_dict() if design is not None else {},
     )
 
 
@@ -71,66 +64,57 @@ def start_defects(zigzagged: PleatedStructure) -> dict[str, Spread]:
             "angle_defect": spread(angle_defect(topology, vertices)[~topology.is_boundary])}
 
 
-def _inexact(structure: PleatedStructure, principal: bool) -> list[str]:
-    topology, vertices = structure.topology, structure.vertices
-    out = []
-    planarity = planarity_defect(topology, vertices)
-    if planarity.max() > EXACT:
-        face = topology.faces[int(np.argmax(planarity))]
-        out.append(f"planarity stays at {planarity.max():.1e} (limit {EXACT:.0e}), worst at {place_of(topology, face[0])}; "
-                   "lower the torsion or the number of creases, or change pattern.amplitude")
-    for name, defect, wanted in (("angle sums miss 2π by", angle_defect(topology, vertices), True),
-                                 ("opposite angles miss π by", principal_defect(topology, vertices), principal)):
-        worst = int(np.argmax(np.abs(defect)))
-        if wanted and abs(defect[worst]) > EXACT:
-            out.append(f"{name} {abs(defect[worst]):.1e} rad (limit {EXACT:.0e}), worst at {place_of(topology, worst)}; "
-                       "lower pattern.width or pattern.creases, or change pattern.theta")
+def _inexact(structure: PleatedStructure, found: Measurements, principal: bool) -> list[str]:
+    topology, out = structure.topology, []
+    if not found.planarity.max() <= EXACT:
+        worst = place_of(topology, topology.faces[int(np.argmax(found.planarity))][0])
+        out.append(f"faces are not planar: the defect reaches {found.planarity.max():.1e} (limit {EXACT:.0e}) at {worst}")
+    for name, defect in (("the sheet does not lie flat: angles miss 2π by", found.angle),
+                         ("the structure is not principal: opposite angles miss π by", found.principal * principal)):
+        vertex = int(np.argmax(np.abs(defect)))
+        if not abs(defect[vertex]) <= EXACT:
+            out.append(f"{name} {abs(defect[vertex]):.1e} rad (limit {EXACT:.0e}) at {place_of(topology, vertex)}")
     return out
 
 
-def _irregular(structure: PleatedStructure) -> list[str]:
-    topology, vertices = structure.topology, structure.vertices
-    quality, out = regularity(topology, vertices), []
-    if quality.min_sector < MIN_SECTOR:
-        corner = int(np.argmin(sector_angles(topology, vertices)))
-        out.append(f"a face has an angle of only {np.degrees(quality.min_sector):.2f}° (limit 5°) at "
-                   f"{place_of(topology, topology.corners.vertex[corner])}; raise pattern.amplitude, lower the torsion of "
-                   "the seed curve, or keep fewer creases")
-    if quality.inverted:
-        out.append(f"{quality.inverted} faces are folded over themselves; raise pattern.amplitude, lower pattern.width, "
-                   "or keep fewer creases")
-    low, high = np.degrees(OPENING_RANGE)
-    edges = topology.edges
-    inner = np.flatnonzero(edges.is_crease & ~edges.is_boundary)
-    opening = np.degrees(crease_opening_angles(topology, vertices))
-    if opening.size and opening.min() <= low:
-        where = place_of(topology, edges.vertices[inner[np.argmin(opening)], 0])
-        out.append(f"a crease closes to an opening angle of {opening.min():.2f}° (limit {low:.0f}°) at {where}; lower "
-                   "pattern.theta or pattern.amplitude")
-    if opening.size and opening.max() >= high:
-        where = place_of(topology, edges.vertices[inner[np.argmax(opening)], 0])
-        out.append(f"a crease opens to {opening.max():.2f}° (limit {high:.0f}°) at {where}, so it is no fold; raise "
-                   "pattern.amplitude")
+def _irregular(structure: PleatedStructure, found: Measurements) -> list[str]:
+    topology, corners, out = structure.topology, structure.topology.corners, []
+    if not found.sectors.min() >= MIN_SECTOR:
+        worst = place_of(topology, corners.vertex[int(np.argmin(found.sectors))])
+        out.append(f"faces are slivers: an angle is only {np.degrees(found.sectors.min()):.2f}° (limit 5°) at {worst}; "
+                   "a larger amplitude, less torsion or fewer creases help")
+    if found.inverted.any():
+        worst = place_of(topology, topology.faces[int(np.argmax(found.inverted))][0])
+        out.append(f"{found.inverted.sum()} faces are folded over, the first at {worst}; a larger amplitude, narrower "
+                   "strips or fewer creases help")
+    out += _unfolded(structure, found)
+    if len(found.intersections):
+        one, other = (place_of(topology, topology.faces[face][0]) for face in found.intersections[0])
+        out.append(f"the folded shape cuts through itself in {len(found.intersections)} pairs of faces, for example {one} "
+                   f"and {other}; fewer creases, narrower strips or a shorter curve help")
     return out
 
 
-def _intersecting(structure: PleatedStructure) -> list[str]:
-    pairs = intersecting_faces(structure.topology, structure.vertices)
-    if len(pairs) == 0:
-        return []
-    one, other = (place_of(structure.topology, structure.topology.faces[face][0]) for face in pairs[0])
-    return [f"the folded shape cuts through itself in {len(pairs)} places, for example {one} and {other}; keep fewer "
-            "creases, lower pattern.width, or shorten the seed curve"]
+def _unfolded(structure: PleatedStructure, found: Measurements) -> list[str]:
+    """Creases that are folded shut, or no fold at all."""
+    edges, out = structure.topology.edges, []
+    if not found.openings.size:
+        return out
+    first = edges.vertices[edges.is_crease & ~edges.is_boundary, 0]
+    low, high = OPENING_RANGE
+    for wrong, index, what in ((found.openings.min() <= low, np.argmin(found.openings), "folded shut, a smaller theta"),
+                               (found.openings.max() >= high, np.argmax(found.openings), "no fold, a larger amplitude")):
+        if wrong:
+            out.append(f"the opening angle is {np.degrees(found.openings[index]):.2f}° (limits {np.degrees(low):.0f}° and "
+                       f"{np.degrees(high):.0f}°) at {place_of(structure.topology, first[index])}: {what} helps")
+    return out
 
 
-def _not_isometric(structure: PleatedStructure) -> list[str]:
-    if structure.development is None:
-        return ["the structure has no development"]
-    error = isometry_error(structure)
-    if error <= ISOMETRIC:
+def _not_isometric(found: Measurements) -> list[str]:
+    if found.isometry is None or found.isometry <= ISOMETRIC:
         return []
-    return [f"the development differs from the folded state by {error:.1e} mean edge lengths (limit {ISOMETRIC:.0e}), "
-            "because angle sums or planarity are not exact"]
+    return [f"the development differs from the folded state by {found.isometry:.1e} mean edge lengths "
+            f"(limit {ISOMETRIC:.0e})"]
 
 
 def _deviation(structure: PleatedStructure, guides: np.ndarray | None, amplitude: float) -> Spread | None:
@@ -141,11 +125,11 @@ def _deviation(structure: PleatedStructure, guides: np.ndarray | None, amplitude
     return spread(crease_deviation(creases, guides, closed) / amplitude)
 
 
-def _sheet(structure: PleatedStructure, units: str) -> Sheet | None:
-    if structure.development is None:
+def _sheet(structure: PleatedStructure, found: Measurements, units: str) -> Sheet | None:
+    if structure.development is None or found.overlap is None:
         return None
     scale = MILLIMETRES[units]
     width, height = (float(x) for x in scale * np.ptp(structure.development, axis=0))
-    overlap = development_overlap(structure.cut.topology, structure.development)
-    place = None if overlap.place is None else (scale * overlap.place[0], scale * overlap.place[1])
-    return Sheet(overlap.overlaps, (width, height), place)
+    place = found.overlap.place
+    return Sheet(found.overlap.overlaps, (width, height),
+                 None if place is None else (scale * place[0], scale * place[1]))

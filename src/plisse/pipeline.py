@@ -53,12 +53,13 @@ def design(recipe: Design | dict | str | Path, *, progress: Progress | None = No
     structure = PleatedStructure(best.start.topology, best.attempt.vertices)
     structure = flatten(structure, best_cut(structure, recipe.solve.cut))
     watch.start("measure", 0.8)
-    report = assess(structure, principal=recipe.solve.principal, design=recipe,
-                    guides=best.start.guides(guide.samples), amplitude=recipe.pattern.amplitude, units=recipe.units)
+    report = assess(structure, principal=recipe.solve.principal, guides=best.start.guides(guide.samples),
+                    amplitude=recipe.pattern.amplitude, units=recipe.units)
     report = msgspec.structs.replace(
         report, start=start_defects(zigzagged), iterations=best.attempt.iterations, method=best.attempt.method,
         history=[float(value) for value in best.attempt.history], tried=_said_of(outcome), seconds=watch.stop(),
-        warnings=guide.notes + foreseen, reasons=report.reasons + (foreseen if report.reasons else []))
+        warnings=guide.notes + (foreseen if report.status == "exact" and not best.is_comfortable else []),
+        reasons=report.reasons + (foreseen if report.reasons else []), design=recipe.to_dict())
     return Result(recipe, report, best.start.pattern, zigzagged, structure)
 
 

@@ -81,5 +81,6 @@ def _score(camera: Camera, centres: np.ndarray, normals: np.ndarray, areas: np.n
     mean = np.average(light, weights=visible + 1e-12)
     contrast = np.sqrt(np.average((light - mean) ** 2, weights=visible + 1e-12))
     width, height = np.ptp(seen[:, :2], axis=0)
-    shown = visible.sum() / areas.sum() * (areas * in_front * (facing > 0.1)).sum() / areas.sum()
-    return float(shown * (0.15 + contrast) * (width / (width + height)) ** 0.25)
+    shown = visible.sum() / areas.sum()
+    share = (areas * in_front * (facing > 0.12)).sum() / areas.sum()
+    return float(shown * share * np.sqrt(0.05 + contrast) * (width / (width + height)) ** 0.25)

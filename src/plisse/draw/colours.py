@@ -7,8 +7,8 @@ __all__ = ["BACKGROUND", "BACK_OF_PAPER", "CAPTION", "EDGE", "INK", "MOUNTAIN", 
 
 BACKGROUND = "#e6e1d8"
 PAPER = "#fdf6e7"
-BACK_OF_PAPER = "#f1dcc0"
-SHADE = "#6d564c"
+BACK_OF_PAPER = "#f3dfc4"
+SHADE = "#7f6353"
 MOUNTAIN = "#b8432f"
 VALLEY = "#2f5f8a"
 RULING = "#8d8271"

@@ -4,22 +4,33 @@ from dataclasses import dataclass
 
 import numpy as np
 
-__all__ = ["Layout", "arrange", "turned"]
+__all__ = ["Layout", "arrange", "dense", "turned"]
 
 BINS = 48
 TURNS = np.radians(np.arange(0, 360, 15))
 SHIFTS = (0.5, 0.35, 0.65, 0.2, 0.8, 0.0, 1.0)
-GAP = 0.06
+GAP = 0.05
+SMALLEST = 0.72
 
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """Pixels per model unit, the corners (2,) in pixels where each picture starts, and the turn of the sheet."""
+    """Pixels per model unit, the corners (2,) in pixels where each picture starts, the turn of the sheet.
+
+    The sheet is drawn at `scale / reduction`.
+    """
 
     scale: float
+    reduction: int
     folded: np.ndarray
     flat: np.ndarray
     turn: float
+
+
+def dense(line: np.ndarray, between: int = 12) -> np.ndarray:
+    """The polyline (N, 2) with points between its vertices, for clouds that must have no holes."""
+    share = np.linspace(0, 1, between, endpoint=False)[:, None, None]
+    return np.concatenate([(line[:-1] + share * np.diff(line, axis=0)).reshape(-1, 2), line[-1:]])
 
 
 def turned(points: np.ndarray, angle: float) -> np.ndarray:
@@ -31,12 +42,15 @@ def turned(points: np.ndarray, angle: float) -> np.ndarray:
 def arrange(folded: np.ndarray, flat: np.ndarray | None, low: np.ndarray, high: np.ndarray) -> Layout:
     """Layout of point clouds (N, 2) inside the box from `low` to `high` in pixels.
 
-    The sheet stands to the right; the two may reach into each other's bays but keep a gap.
+    The sheet stands to the right; the two may reach into each other's bays but keep a gap. A sheet much larger than
+    what it folds into is reduced by a whole number, so that the folded shape stays the picture's hero.
     """
     room, size = high - low, np.ptp(folded, axis=0)
     if flat is None:
         scale = float((room / size).min())
-        return Layout(scale, low + (room - size * scale) / 2, low, 0.0)
+        return Layout(scale, 1, low + (room - size * scale) / 2, low, 0.0)
+    reduction = max(1, int(np.ceil(SMALLEST * _diameter(flat) / _diameter(folded) - 0.1)))
+    flat = flat / reduction
     best, chosen = -1.0, None
     for turn in TURNS:
         sheet = turned(flat, turn)
@@ -53,7 +67,7 @@ def arrange(folded: np.ndarray, flat: np.ndarray | None, low: np.ndarray, high: 
     scale = float((room / total).min())
     corner = low + (room - total * scale) / 2
     bottom = -min(0.0, lift)
-    return Layout(scale, corner + np.array([0, bottom + lift]) * scale, corner + np.array([across, bottom]) * scale,
+    return Layout(scale, reduction, corner + np.array([0, bottom + lift]) * scale, corner + np.array([across, bottom]) * scale,
                   float(turn))
 
 
@@ -72,3 +86,7 @@ def _beside(folded: np.ndarray, sheet: np.ndarray, lift: float) -> float:
     across = (reach[meets] - start[meets]).max(initial=0.0)
     # never so deep that left and right are lost
     return float(max(across + gap, 0.62 * np.ptp(folded[:, 0])))
+
+
+def _diameter(points: np.ndarray) -> float:
+    return float(np.linalg.norm(points - points.mean(axis=0), axis=1).max())

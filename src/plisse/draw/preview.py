@@ -7,7 +7,7 @@ import numpy as np
 from plisse.draw import colours
 from plisse.draw.camera import best_view
 from plisse.draw.drawing import crease_pattern
-from plisse.draw.layout import Layout, arrange, turned
+from plisse.draw.layout import Layout, arrange, dense, turned
 from plisse.draw.render import Rendering, render
 from plisse.draw.runs import lettered_runs
 from plisse.measure.planarity import planarity_defect
@@ -43,23 +43,33 @@ def write_preview(subject: Result | PleatedStructure, path: str | Path, *, title
     axes.set_axis_off()
     axes.set_xlim(0, SIZE[0])
     axes.set_ylim(0, SIZE[1])
-    _compose(axes, structure, units)
-    _caption(axes, structure, units, title)
+    layout = _compose(axes, structure, units)
+    _caption(axes, structure, units, title, layout.reduction)
     canvas.print_png(str(path), metadata={"Software": None}, pil_kwargs={"compress_level": 4})
 
 
-def _compose(axes, structure: PleatedStructure, units: str) -> None:
+def _compose(axes, structure: PleatedStructure, units: str) -> Layout:
     camera = best_view(structure)
     sheet = None if structure.development is None else _sheet(structure, units)
+    outline = None if sheet is None else np.concatenate([dense(line) for line in sheet["boundary"]])
     seen = camera.project(structure.vertices)[:, :2]
-    cloud = None if sheet is None else np.concatenate([line for lines in sheet.values() for line in lines])
-    layout = arrange(seen, cloud, np.array([MARGIN, CAPTION_BAND]), np.array(SIZE) - MARGIN)
+    shape = dense(seen[structure.topology.edges.vertices].reshape(-1, 2)) if len(seen) < 500 else seen
+    layout = arrange(shape, outline, np.array([MARGIN, CAPTION_BAND]), np.array(SIZE) - MARGIN)
     picture = render(structure, camera, layout.scale, RIM)
     placed = {} if sheet is None else _placed(sheet, layout)
     _draw_ground(axes, picture, placed.get("boundary", []), layout)
-    _draw_folded(axes, picture, structure, layout.folded - RIM)
+    _draw_folded(axes, picture, structure, layout.folded - RIM, _line_width(structure, layout.scale))
     if placed:
-        _draw_sheet(axes, placed)
+        _draw_sheet(axes, placed, _line_width(structure, layout.scale / layout.reduction))
+    return layout
+
+
+def _line_width(structure: PleatedStructure, scale: float) -> float:
+    """Width of crease lines in points: about a thirtieth of the strips between them, never heavy."""
+    edges = structure.topology.edges
+    a, b = structure.vertices[edges.vertices[~edges.is_crease].T]
+    strip = np.median(np.linalg.norm(a - b, axis=1)) * scale * 72 / DOTS_PER_INCH
+    return float(np.clip(strip / 22, 0.16, 0.7))
 
 
 def _sheet(structure: PleatedStructure, units: str) -> dict[str, list[np.ndarray]]:
@@ -72,7 +82,8 @@ def _placed(sheet: dict[str, list[np.ndarray]], layout: Layout) -> dict[str, lis
     """The same polylines in pixels of the picture."""
     on_page = {name: [turned(line, layout.turn) for line in lines] for name, lines in sheet.items()}
     low = np.concatenate(on_page["boundary"]).min(axis=0)
-    return {name: [(line - low) * layout.scale + layout.flat for line in lines] for name, lines in on_page.items()}
+    scale = layout.scale / layout.reduction
+    return {name: [(line - low) * scale + layout.flat for line in lines] for name, lines in on_page.items()}
 
 
 def _draw_ground(axes, picture: Rendering, loops: list[np.ndarray], layout: Layout) -> None:
@@ -103,7 +114,8 @@ def _stamp(target: np.ndarray, image: np.ndarray, corner: np.ndarray) -> None:
     part[:] = image[:part.shape[0], :part.shape[1]]
 
 
-def _draw_folded(axes, picture: Rendering, structure: PleatedStructure, corner: np.ndarray) -> None:
+def _draw_folded(axes, picture: Rendering, structure: PleatedStructure, corner: np.ndarray,
+                 width_of_lines: float) -> None:
     height, width = picture.image.shape[:2]
     corner = np.round(corner)
     axes.imshow(picture.image, origin="lower", interpolation="nearest", aspect="auto", zorder=2,
@@ -114,20 +126,20 @@ def _draw_folded(axes, picture: Rendering, structure: PleatedStructure, corner: 
             path = structure.vertices[run.vertices]
             path = np.concatenate([path, path[:1]]) if run.closed else path
             lines[run.letter] += [part + corner for part in picture.visible(path)]
-    _lines(axes, lines["B"], colours.EDGE, 0.5, 0.8, 3)
-    _lines(axes, lines["V"], colours.VALLEY, 0.7, 0.9, 3)
-    _lines(axes, lines["M"], colours.MOUNTAIN, 0.7, 0.9, 3)
+    _lines(axes, lines["B"], colours.EDGE, 0.6 * width_of_lines, 0.75, 3)
+    _lines(axes, lines["V"], colours.VALLEY, width_of_lines, 0.85, 3)
+    _lines(axes, lines["M"], colours.MOUNTAIN, width_of_lines, 0.85, 3)
 
 
-def _draw_sheet(axes, placed: dict[str, list[np.ndarray]]) -> None:
+def _draw_sheet(axes, placed: dict[str, list[np.ndarray]], width: float) -> None:
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path as Outline
 
     outline = Outline.make_compound_path(*[Outline(loop, closed=True) for loop in placed["boundary"]])
-    axes.add_patch(PathPatch(outline, facecolor=colours.PAPER, edgecolor=colours.EDGE, linewidth=0.5, zorder=1))
+    axes.add_patch(PathPatch(outline, facecolor=colours.PAPER, edgecolor=colours.EDGE, linewidth=0.45, zorder=1))
     _lines(axes, placed["ruling"], colours.RULING, 0.2, 0.35, 2)
-    _lines(axes, placed["valley"], colours.VALLEY, 0.7, 1.0, 3)
-    _lines(axes, placed["mountain"], colours.MOUNTAIN, 0.7, 1.0, 3)
+    _lines(axes, placed["valley"], colours.VALLEY, width, 1.0, 3)
+    _lines(axes, placed["mountain"], colours.MOUNTAIN, width, 1.0, 3)
 
 
 def _lines(axes, lines: list[np.ndarray], colour: str, width: float, alpha: float, zorder: int) -> None:
@@ -137,12 +149,13 @@ def _lines(axes, lines: list[np.ndarray], colour: str, width: float, alpha: floa
                                        capstyle="round", joinstyle="round"))
 
 
-def _caption(axes, structure: PleatedStructure, units: str, title: str | None) -> None:
+def _caption(axes, structure: PleatedStructure, units: str, title: str | None, reduction: int) -> None:
     topology, vertices = structure.topology, structure.vertices
     facts = [f"{topology.vertex_count:,} vertices", f"planarity {planarity_defect(topology, vertices).max():.0e}",
              f"angle defect {np.abs(angle_defect(topology, vertices)).max():.0e}"]
     if structure.development is not None:
         width, height = np.ptp(structure.development, axis=0)
-        facts.append(f"sheet {width:.0f} × {height:.0f} {units}")
+        drawn = f", drawn 1 : {reduction} to the fold" if reduction > 1 else ""
+        facts.append(f"sheet {width:.3g} × {height:.3g} {units}{drawn}")
     axes.text(MARGIN, 66, title or "", fontsize=11, color=colours.INK, va="center")
     axes.text(SIZE[0] - MARGIN, 66, "   ·   ".join(facts), fontsize=7, color=colours.CAPTION, va="center", ha="right")

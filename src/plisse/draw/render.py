@@ -60,41 +60,46 @@ def render(structure: PleatedStructure, camera: Camera, scale: float, margin: in
 def _image(buffer: DepthBuffer, pixels: np.ndarray, normals: np.ndarray) -> np.ndarray:
     height, width = buffer.depth.shape
     row, column = np.nonzero(buffer.triangle >= 0)
-    owner = buffer.triangle[row, column]
-    place = np.stack([column + 0.5, row + 0.5], axis=1)
-    normal, front = _normals_at(owner, place, pixels, normals)
-    points = np.column_stack([place, buffer.depth[row, column]])
-    sun = np.zeros((height, width), np.float32)
-    sun[row, column] = sunlight(pixels, points)
-    sky = _sky(buffer, row, column, normal)
+    place = np.stack([column, row], axis=1).astype(np.float32) + np.float32(0.5)
+    normal, front = _normals_at(buffer.triangle[row, column], place, pixels, normals)
+    field = np.zeros((height, width, 3), np.float32)
+    field[row, column] = normal
+    sun, sky = _light(buffer, pixels, field)
     image = np.zeros((height, width, 4), np.float32)
-    image[row, column, :3] = paper_colour(normal, front, soft(sun, buffer.triangle >= 0, 1.5)[row, column],
-                                          sky[row, column])
+    coarse = row // OVERSAMPLE, column // OVERSAMPLE
+    image[row, column, :3] = paper_colour(normal, front, sun[coarse], sky[coarse])
     image[row, column, 3] = 1
     return _reduced(image)
+
+
+def _light(buffer: DepthBuffer, pixels: np.ndarray, normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """How much sun and sky reach the paper in 0…1, one value per block of pixels, softened a little."""
+    depth, owner = _coarse(buffer)
+    row, column = np.nonzero(owner >= 0)
+    points = np.column_stack([(column + 0.5) * OVERSAMPLE, (row + 0.5) * OVERSAMPLE, depth[row, column]])
+    sun = np.zeros(depth.shape, np.float32)
+    sun[row, column] = sunlight(pixels, points)
+    towards = np.where((owner >= 0)[..., None], normals[::OVERSAMPLE, ::OVERSAMPLE], [0, 0, 1]).astype(np.float32)
+    sky = occlusion(depth / OVERSAMPLE, towards, radius=0.09 * max(depth.shape))
+    mask = owner >= 0
+    return soft(sun, mask, 1.2), soft(sky, mask, 1.2)
+
+
+def _coarse(buffer: DepthBuffer) -> tuple[np.ndarray, np.ndarray]:
+    """Depth and triangle of one pixel in every block."""
+    return buffer.depth[::OVERSAMPLE, ::OVERSAMPLE], buffer.triangle[::OVERSAMPLE, ::OVERSAMPLE]
 
 
 def _normals_at(owner: np.ndarray, place: np.ndarray, pixels: np.ndarray,
                 normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Smooth unit normals (N, 3) towards the viewer, and whether the front of the paper is seen."""
-    planes = np.stack([depth_planes(pixels, normals[..., k]) for k in range(3)], axis=1).astype(np.float32)
-    own = planes[owner]
-    normal = unit(own[..., 0] + own[..., 1] * place[:, :1] + own[..., 2] * place[:, 1:])
+    planes = np.stack([depth_planes(pixels, normals[..., k]) for k in range(3)], axis=-1).astype(np.float32)
+    constant, along_x, along_y = planes[:, 0], planes[:, 1], planes[:, 2]
+    normal = constant[owner] + along_x[owner] * place[:, :1] + along_y[owner] * place[:, 1:]
+    normal /= np.sqrt(np.einsum("ij,ij->i", normal, normal))[:, None]
     a, b, c = pixels[:, 0], pixels[:, 1], pixels[:, 2]
-    counterclockwise = np.cross(b - a, c - a)[:, 2] > 0
-    front = counterclockwise[owner]
+    front = (np.cross(b - a, c - a)[:, 2] > 0)[owner]
     return np.where(front[:, None], normal, -normal), front
-
-
-def _sky(buffer: DepthBuffer, row: np.ndarray, column: np.ndarray, normal: np.ndarray) -> np.ndarray:
-    """Occlusion at full size, computed on every second pixel."""
-    field = np.zeros((*buffer.depth.shape, 3), np.float32)
-    field[..., 2] = 1
-    field[row, column] = normal
-    small = buffer.depth[::OVERSAMPLE, ::OVERSAMPLE] / OVERSAMPLE
-    sky = occlusion(small, field[::OVERSAMPLE, ::OVERSAMPLE], radius=0.09 * max(small.shape))
-    sky = soft(sky, np.isfinite(small), 1.2)
-    return sky.repeat(OVERSAMPLE, axis=0).repeat(OVERSAMPLE, axis=1)[:buffer.depth.shape[0], :buffer.depth.shape[1]]
 
 
 def _reduced(image: np.ndarray) -> np.ndarray:

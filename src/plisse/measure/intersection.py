@@ -4,6 +4,7 @@ import numpy as np
 import shapely
 
 from plisse.geometry.vectors import dot
+from plisse.measure.planarity import face_normals
 from plisse.structure.topology import Topology
 
 __all__ = ["intersecting_faces"]
@@ -19,7 +20,7 @@ def intersecting_faces(topology: Topology, vertices: np.ndarray) -> np.ndarray:
     of the other. Faces that only touch do not count.
     """
     triangles, face = _triangles(topology)
-    candidates = _box_pairs(topology, vertices)
+    candidates = _straddling(_box_pairs(topology, vertices), topology, vertices)
     found = []
     for start in range(0, len(candidates), CHUNK):
         pairs = candidates[start:start + CHUNK]
@@ -53,6 +54,17 @@ def _box_pairs(topology: Topology, vertices: np.ndarray) -> np.ndarray:
     quads = _padded_faces(topology)
     touching = (quads[a][:, :, None] == quads[b][:, None, :]).any(axis=(1, 2))
     return np.stack([a[~touching], b[~touching]], axis=1)
+
+
+def _straddling(pairs: np.ndarray, topology: Topology, vertices: np.ndarray) -> np.ndarray:
+    """The pairs in which each face has vertices on both sides of the other's plane."""
+    normals, faces = face_normals(topology, vertices), _padded_faces(topology)
+    for one, other in ((0, 1), (1, 0)):
+        plane, points = pairs[:, one], faces[pairs[:, other]]
+        origin = vertices[faces[plane, 0]]
+        heights = np.stack([dot(vertices[column] - origin, normals[plane]) for column in points.T])
+        pairs = pairs[(heights.min(axis=0) < 0) & (heights.max(axis=0) > 0)]
+    return pairs
 
 
 def _flattest_axis(vertices: np.ndarray) -> tuple[list[int], int]:

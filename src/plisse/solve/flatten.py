@@ -11,15 +11,16 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order
 
 from plisse.geometry.vectors import dot, norm, unit
+from plisse.measure.isometry import isometry_defect
 from plisse.measure.planarity import face_normals
-from plisse.solve.energies import given_length, isometry_pairs
+from plisse.solve.energies import given_length
 from plisse.solve.energies.kernel import Rows, Term
 from plisse.solve.problem import Problem
 from plisse.structure.cut import Cut
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Topology
 
-__all__ = ["flatten", "isometry_error", "unfold"]
+__all__ = ["flatten", "laid_out", "refine_isometry", "unfold"]
 
 GOOD_ENOUGH = 3e-14
 
@@ -34,13 +35,6 @@ def flatten(structure: PleatedStructure, cut: Cut | None = None) -> PleatedStruc
     vertices = structure.vertices[cut.source]
     flat = refine_isometry(cut.topology, vertices, unfold(cut.topology, vertices))
     return replace(structure, cut=cut, development=laid_out(cut.topology, flat))
-
-
-def isometry_error(structure: PleatedStructure) -> float:
-    """Largest difference of an edge or diagonal between space and development, over the mean edge length."""
-    opened = structure.opened
-    assert opened.development is not None
-    return _relative_error(opened.topology, opened.vertices, opened.development)
 
 
 def unfold(topology: Topology, vertices: np.ndarray) -> np.ndarray:
@@ -63,20 +57,20 @@ def unfold(topology: Topology, vertices: np.ndarray) -> np.ndarray:
 
 def refine_isometry(topology: Topology, vertices: np.ndarray, flat: np.ndarray, steps: int = 4) -> np.ndarray:
     """Development (V, 2) after Gauss–Newton steps on all edge and diagonal lengths."""
-    i, j = isometry_pairs(topology).T
+    i, j = topology.rods.T
     scale = norm(vertices[i] - vertices[j]).mean()
     square = dot(d := (vertices[i] - vertices[j]) / scale, d)
     key = np.arange(topology.vertex_count) if topology.ordering is None else topology.ordering
     term = Term("isometry", given_length, (Rows("flat", i), Rows("flat", j)), 1.0, {"square": square})
     problem = Problem([term], {"flat": (2, key)})
     blocks = {"flat": flat.T / scale}
-    best, least = flat, _relative_error(topology, vertices, flat)
+    best, least = flat, isometry_defect(topology, vertices, flat)
     for _ in range(steps):
         if least < GOOD_ENOUGH:
             break
         at = problem.linearise(blocks)
         blocks = problem.moved(blocks, -problem.factor(at, 1e-10).solve(problem.gradient(at)))
-        error = _relative_error(topology, vertices, scale * blocks["flat"].T)
+        error = isometry_defect(topology, vertices, scale * blocks["flat"].T)
         if not error < 0.7 * least:
             break
         best, least = scale * blocks["flat"].T, error
@@ -95,12 +89,6 @@ def laid_out(topology: Topology, flat: np.ndarray) -> np.ndarray:
         x = -x
     turned = flat @ np.array([[x[0], -x[1]], [x[1], x[0]]])
     return turned - turned[np.unique(topology.corners.vertex)].min(axis=0)
-
-
-def _relative_error(topology: Topology, vertices: np.ndarray, flat: np.ndarray) -> float:
-    i, j = isometry_pairs(topology).T
-    lengths = norm(vertices[i] - vertices[j])
-    return float(np.abs(norm(flat[i] - flat[j]) - lengths).max() / lengths.mean())
 
 
 def _local_coordinates(topology: Topology, vertices: np.ndarray) -> np.ndarray:

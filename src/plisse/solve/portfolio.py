@@ -34,6 +34,12 @@ class Judged:
         return (self.verdict is not None, *(self.verdict.rank if self.verdict else ()))
 
 
+    @property
+    def is_comfortable(self) -> bool:
+        """Whether nothing more needs to be tried."""
+        return self.verdict is not None and self.verdict.is_comfortable
+
+
 @dataclass(frozen=True, eq=False)
 class Outcome:
     """The best attempt and all attempts in the order in which they were made."""
@@ -47,7 +53,7 @@ def solve(starts: Iterable[Start], ways: tuple[Way, ...]) -> Outcome:
     tried: list[Judged] = []
     for judged in _attempts(starts, ways):
         tried.append(judged)
-        if judged.verdict is not None and judged.verdict.is_comfortable:
+        if judged.is_comfortable:
             break
     return Outcome(max(tried, key=lambda judged: judged.rank), tuple(tried))
 

@@ -76,6 +76,17 @@ class Topology:
         return np.concatenate([self.quads, *fans])
 
     @cached_property
+    def rods(self) -> np.ndarray:
+        """Vertex pairs (P, 2) of all edges and all diagonals of faces: an isometry keeps their lengths."""
+        quads = self.quads
+        pairs = [self.edges.vertices, quads[:, [0, 2]], quads[:, [1, 3]]]
+        for hub in self.hubs:
+            first, second = np.triu_indices(len(hub), 2)
+            inner = (second - first) != len(hub) - 1
+            pairs.append(np.stack([hub[first[inner]], hub[second[inner]]], axis=1))
+        return np.concatenate(pairs)
+
+    @cached_property
     def is_boundary(self) -> np.ndarray:
         """Mask (V,) of vertices on the boundary (or in no face at all)."""
         mask = np.ones(self.vertex_count, bool)

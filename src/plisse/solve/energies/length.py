@@ -40,10 +40,4 @@ def isometry(topology: Topology, weight: float = 1.0) -> Term:
 
 def isometry_pairs(topology: Topology) -> np.ndarray:
     """Vertex pairs (P, 2): every edge and every diagonal of a face."""
-    quads = topology.quads
-    pairs = [topology.edges.vertices, quads[:, [0, 2]], quads[:, [1, 3]]]
-    for hub in topology.hubs:
-        first, second = np.triu_indices(len(hub), 2)
-        inner = (second - first) != len(hub) - 1
-        pairs.append(np.stack([hub[first[inner]], hub[second[inner]]], axis=1))
-    return np.concatenate(pairs)
+    return topology.rods
