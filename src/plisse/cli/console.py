@@ -63,9 +63,9 @@ def show_findings(found: Findings, *, title: str) -> None:
         rows.append((name.replace("_", " "), f"max {spread.max:.1e}   mean {spread.mean:.1e}"))
     rows.append(("principal (folds flat)", "yes" if found.principal else "no"))
     rows.append(("smallest sector angle", f"{found.min_sector_angle_deg:.1f}°"))
-    if found.opening_angle_deg is not None:
-        rows.append(("opening angles", f"{found.opening_angle_deg.min:.1f}° to {found.opening_angle_deg.max:.1f}°"))
+    rows.append(("opening angles", f"{found.opening_angle_deg.min:.1f}° to {found.opening_angle_deg.max:.1f}°"))
     rows.append(("faces folded over", str(found.inverted_faces)))
+    rows.append(("self-intersections", str(found.self_intersections)))
     _panel(title, found.status, rows, found.reasons)
 
 

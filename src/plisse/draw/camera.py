@@ -33,20 +33,26 @@ class Camera:
 
 def best_view(structure: PleatedStructure) -> Camera:
     """The camera, out of some seventy above and below the main plane, that shows most: see `_score`."""
+    samples = _samples(structure)
+    return max(_candidates(structure.vertices), key=lambda camera: _score(camera, *samples))
+
+
+def _samples(structure: PleatedStructure) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Points (N, 3) spread over the faces, the normals there and the area that each stands for."""
     topology, vertices = structure.topology, structure.vertices
     areas, normals = face_areas(topology, vertices), face_normals(topology, vertices)
-    every = max(1, topology.face_count // SAMPLES)
-    chosen = np.arange(0, topology.face_count, every)
-    centres = _centres(structure)[chosen]
-    samples = centres, normals[chosen], areas[chosen]
-    return max(_candidates(vertices), key=lambda camera: _score(camera, *samples))
-
-
-def _centres(structure: PleatedStructure) -> np.ndarray:
-    corners = structure.topology.corners
-    count = np.bincount(corners.face)
-    sums = [np.bincount(corners.face, structure.vertices[corners.vertex, k]) for k in range(3)]
-    return np.stack(sums, axis=1) / count[:, None]
+    quads = np.arange(0, len(topology.quads), max(1, len(topology.quads) // SAMPLES))
+    side = int(np.clip(np.sqrt(SAMPLES / max(1, len(quads))), 1, 24))
+    at = (np.arange(side) + 0.5) / side
+    along, across = (share[..., None] for share in np.meshgrid(at, at))
+    a, b, c, d = (vertices[topology.quads[quads, k]][:, None, None] for k in range(4))
+    points = (1 - across) * ((1 - along) * a + along * b) + across * ((1 - along) * d + along * c)
+    count = side * side
+    hubs = np.arange(len(topology.quads), topology.face_count)
+    middles = np.array([vertices[hub].mean(axis=0) for hub in topology.hubs]).reshape(-1, 3)
+    faces = np.concatenate([np.repeat(quads, count), hubs])
+    share = areas[faces] / np.concatenate([np.full(len(quads) * count, count), np.ones(len(hubs))])
+    return np.concatenate([points.reshape(-1, 3), middles]), normals[faces], share
 
 
 def _candidates(vertices: np.ndarray) -> list[Camera]:
@@ -65,9 +71,9 @@ def _candidates(vertices: np.ndarray) -> list[Camera]:
     return cameras
 
 
-def _score(camera: Camera, centres: np.ndarray, normals: np.ndarray, areas: np.ndarray) -> float:
-    """Area as seen times share of the paper seen times contrast of its light, with a little for wide pictures."""
-    seen, facing = camera.project(centres), np.abs(camera.project(normals)[:, 2])
+def _score(camera: Camera, points: np.ndarray, normals: np.ndarray, areas: np.ndarray) -> float:
+    """Area as seen, share of the paper seen and contrast of its light; a little for wide pictures and the front."""
+    seen, facing = camera.project(points), np.abs(camera.project(normals)[:, 2])
     cell = 1.6 * np.sqrt(areas.mean())
     index = np.floor((seen[:, :2] - seen[:, :2].min(axis=0)) / cell).astype(np.int64)
     key = index[:, 1] * (index[:, 0].max() + 1) + index[:, 0]
@@ -83,4 +89,5 @@ def _score(camera: Camera, centres: np.ndarray, normals: np.ndarray, areas: np.n
     width, height = np.ptp(seen[:, :2], axis=0)
     shown = visible.sum() / areas.sum()
     share = (areas * in_front * (facing > 0.12)).sum() / areas.sum()
-    return float(shown * share * np.sqrt(0.05 + contrast) * (width / (width + height)) ** 0.25)
+    front = visible[camera.project(normals)[:, 2] > 0].sum() / (visible.sum() + 1e-300)
+    return float((1 + 0.25 * front) * shown * share * np.sqrt(0.05 + contrast) * (width / (width + height)) ** 0.25)

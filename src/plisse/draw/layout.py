@@ -8,7 +8,7 @@ __all__ = ["Layout", "arrange", "dense", "turned"]
 
 BINS = 48
 TURNS = np.radians(np.arange(0, 360, 15))
-SHIFTS = (0.5, 0.35, 0.65, 0.2, 0.8, 0.0, 1.0)
+SHIFTS = (0.5, 0.3, 0.7, 0.0, 1.0)
 GAP = 0.05
 SMALLEST = 0.72
 
@@ -59,7 +59,7 @@ def arrange(folded: np.ndarray, flat: np.ndarray | None, low: np.ndarray, high: 
             lift = shift * (tall[1] - size[1])
             across = _beside(folded, sheet, lift)
             total = np.array([max(across + tall[0], size[0]), max(tall[1], lift + size[1]) - min(0.0, lift)])
-            scale = float((room / total).min()) * (1.0 - 0.04 * abs(shift - 0.5))
+            scale = float((room / total).min()) * (1.0 - 0.2 * abs(shift - 0.5))
             if scale > best * 1.0001:
                 best, chosen = scale, (turn, lift, across, total)
     assert chosen is not None

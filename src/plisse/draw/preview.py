@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from plisse.draw import colours
-from plisse.draw.camera import best_view
+from plisse.draw.camera import Camera, best_view
 from plisse.draw.drawing import crease_pattern
 from plisse.draw.layout import Layout, arrange, dense, turned
 from plisse.draw.render import Rendering, render
@@ -51,25 +51,31 @@ def write_preview(subject: Result | PleatedStructure, path: str | Path, *, title
 def _compose(axes, structure: PleatedStructure, units: str) -> Layout:
     camera = best_view(structure)
     sheet = None if structure.development is None else _sheet(structure, units)
-    outline = None if sheet is None else np.concatenate([dense(line) for line in sheet["boundary"]])
-    seen = camera.project(structure.vertices)[:, :2]
-    shape = dense(seen[structure.topology.edges.vertices].reshape(-1, 2)) if len(seen) < 500 else seen
-    layout = arrange(shape, outline, np.array([MARGIN, CAPTION_BAND]), np.array(SIZE) - MARGIN)
+    outline = None if sheet is None else np.concatenate([dense(line, max(1, 4000 // len(line))) for line in sheet["boundary"]])
+    layout = arrange(_cloud(structure, camera), outline, np.array([MARGIN, CAPTION_BAND]), np.array(SIZE) - MARGIN)
     picture = render(structure, camera, layout.scale, RIM)
     placed = {} if sheet is None else _placed(sheet, layout)
     _draw_ground(axes, picture, placed.get("boundary", []), layout)
     _draw_folded(axes, picture, structure, layout.folded - RIM, _line_width(structure, layout.scale))
     if placed:
-        _draw_sheet(axes, placed, _line_width(structure, layout.scale / layout.reduction))
+        _draw_sheet(axes, placed, _line_width(structure, layout.scale / layout.reduction, 0.35))
     return layout
 
 
-def _line_width(structure: PleatedStructure, scale: float) -> float:
-    """Width of crease lines in points: about a thirtieth of the strips between them, never heavy."""
+def _cloud(structure: PleatedStructure, camera: Camera) -> np.ndarray:
+    """Enough points (N, 2) to know where the folded shape is, in the camera's plane."""
+    seen = camera.project(structure.vertices)[:, :2]
+    if len(seen) > 500:
+        return seen[::max(1, len(seen) // 20_000)]
+    return np.concatenate([dense(seen[edge]) for edge in structure.topology.edges.vertices])
+
+
+def _line_width(structure: PleatedStructure, scale: float, least: float = 0.16) -> float:
+    """Width of crease lines in points: a small part of the strips between them, never heavy."""
     edges = structure.topology.edges
     a, b = structure.vertices[edges.vertices[~edges.is_crease].T]
     strip = np.median(np.linalg.norm(a - b, axis=1)) * scale * 72 / DOTS_PER_INCH
-    return float(np.clip(strip / 22, 0.16, 0.7))
+    return float(np.clip(strip / 20, least, 0.7))
 
 
 def _sheet(structure: PleatedStructure, units: str) -> dict[str, list[np.ndarray]]:
@@ -101,7 +107,7 @@ def _draw_ground(axes, picture: Rendering, loops: list[np.ndarray], layout: Layo
     centres = (np.column_stack([x.ravel(), y.ravel()]) + 0.5) * small
     lies = np.zeros((height, width), bool)
     for loop in loops:
-        lies ^= Outline(loop).contains_points(centres).reshape(height, width)
+        lies ^= Outline(loop[:: 1 + len(loop) // 600]).contains_points(centres).reshape(height, width)
     shadow += 0.3 * gaussian_filter(shift(lies.astype(float), (-1, 1), order=0), 2)
     light = (0.94 + 0.06 * glow)[..., None] * (1 - np.clip(shadow, 0, 1)[..., None] * (1 - colours.rgb(colours.SHADE)))
     axes.imshow(np.clip(colours.rgb(colours.BACKGROUND) * light, 0, 1), extent=(0, SIZE[0], 0, SIZE[1]),
@@ -137,9 +143,18 @@ def _draw_sheet(axes, placed: dict[str, list[np.ndarray]], width: float) -> None
 
     outline = Outline.make_compound_path(*[Outline(loop, closed=True) for loop in placed["boundary"]])
     axes.add_patch(PathPatch(outline, facecolor=colours.PAPER, edgecolor=colours.EDGE, linewidth=0.45, zorder=1))
-    _lines(axes, placed["ruling"], colours.RULING, 0.2, 0.35, 2)
+    _lines(axes, _sparse(placed["ruling"]), colours.RULING, 0.2, 0.35, 2)
     _lines(axes, placed["valley"], colours.VALLEY, width, 1.0, 3)
     _lines(axes, placed["mountain"], colours.MOUNTAIN, width, 1.0, 3)
+
+
+def _sparse(rulings: list[np.ndarray], apart: float = 7.0) -> list[np.ndarray]:
+    """Every so-many-th ruling, so that they lie some pixels apart and do not darken the sheet."""
+    if len(rulings) < 3:
+        return rulings
+    middles = np.array([line[len(line) // 2] for line in rulings])
+    gap = np.median(np.hypot(*np.diff(middles, axis=0).T))
+    return rulings[::max(1, int(np.ceil(apart / max(gap, 1e-3))))]
 
 
 def _lines(axes, lines: list[np.ndarray], colour: str, width: float, alpha: float, zorder: int) -> None:

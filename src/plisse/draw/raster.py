@@ -67,12 +67,13 @@ def _spans(points: np.ndarray, width: int, height: int) -> tuple[np.ndarray, np.
     middle = row + 0.5
     left, right = np.full(len(row), np.inf), np.full(len(row), -np.inf)
     for k in range(3):
-        p, q = points[triangle, k], points[triangle, (k + 1) % 3]
-        crosses = (p[:, 1] <= middle) != (q[:, 1] <= middle)
-        rise = np.where(crosses, q[:, 1] - p[:, 1], 1.0)
-        x = p[:, 0] + (middle - p[:, 1]) * (q[:, 0] - p[:, 0]) / rise
-        left = np.where(crosses, np.minimum(left, x), left)
-        right = np.where(crosses, np.maximum(right, x), right)
+        (px, py), (qx, qy) = points[:, k, :2].T, points[:, (k + 1) % 3, :2].T
+        slope = (qx - px) / np.where(qy == py, np.inf, qy - py)
+        start, end = py[triangle], qy[triangle]
+        x = (px - py * slope)[triangle] + slope[triangle] * middle
+        crosses = (start <= middle) != (end <= middle)
+        np.minimum(left, x, out=left, where=crosses)
+        np.maximum(right, x, out=right, where=crosses)
     filled = right > left
     first = np.clip(np.ceil(left[filled] - 0.5), 0, width).astype(np.int64)
     last = np.clip(np.ceil(right[filled] - 0.5), 0, width).astype(np.int64)

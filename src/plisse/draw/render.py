@@ -76,7 +76,7 @@ def _light(buffer: DepthBuffer, pixels: np.ndarray, normals: np.ndarray) -> tupl
     """How much sun and sky reach the paper in 0…1, one value per block of pixels, softened a little."""
     depth, owner = _coarse(buffer)
     row, column = np.nonzero(owner >= 0)
-    points = np.column_stack([(column + 0.5) * OVERSAMPLE, (row + 0.5) * OVERSAMPLE, depth[row, column]])
+    points = np.stack([column * OVERSAMPLE + 0.5, row * OVERSAMPLE + 0.5, depth[row, column]]).astype(np.float32)
     sun = np.zeros(depth.shape, np.float32)
     sun[row, column] = sunlight(pixels, points)
     towards = np.where((owner >= 0)[..., None], normals[::OVERSAMPLE, ::OVERSAMPLE], [0, 0, 1]).astype(np.float32)

@@ -27,20 +27,32 @@ def lettered_runs(structure: PleatedStructure) -> list[Run]:
     edges = topology.edges
     letters = assignments(topology, structure.vertices)
     letters = np.where(edges.is_crease | edges.is_boundary, letters, "R")
-    ends = np.sort(edges.vertices, axis=1).tolist()
-    known = {(a, b): letter for (a, b), letter in zip(ends, letters.tolist(), strict=True)}
+    known = _Letters(edges.vertices, letters, topology.vertex_count)
     runs = [Run("B", loop, True) for loop in boundary_loops(topology)]
     for chain in (*topology.creases, *topology.rulings):
         runs += [run for run in _split(chain, known) if run.letter != "B"]
     return runs
 
 
-def _split(chain: Polyline, letters: dict[tuple[int, int], str]) -> list[Run]:
-    path = chain.vertices.tolist()
-    if chain.closed:
-        path = [*path, path[0]]
-    names = [letters[min(a, b), max(a, b)] for a, b in pairwise(path)]
-    cuts = [0, *(k for k in range(1, len(names)) if names[k] != names[k - 1]), len(names)]
-    if chain.closed and len(cuts) == 2:
-        return [Run(names[0], chain.vertices, True)]
-    return [Run(names[a], np.array(path[a:b + 1]), False) for a, b in pairwise(cuts)]
+class _Letters:
+    """Letters of edges, looked up along paths of vertices."""
+
+    def __init__(self, ends: np.ndarray, letters: np.ndarray, vertex_count: int):
+        key = ends.min(axis=1) * vertex_count + ends.max(axis=1)
+        order = np.argsort(key)
+        self._key, self._letters, self._count = key[order], letters[order], vertex_count
+
+    def along(self, path: np.ndarray) -> np.ndarray:
+        """One letter per edge of a path (N,): (N−1,)."""
+        a, b = path[:-1], path[1:]
+        return self._letters[np.searchsorted(self._key, np.minimum(a, b) * self._count + np.maximum(a, b))]
+
+
+def _split(chain: Polyline, letters: _Letters) -> list[Run]:
+    path = np.append(chain.vertices, chain.vertices[0]) if chain.closed else chain.vertices
+    names = letters.along(path)
+    changes = np.flatnonzero(names[1:] != names[:-1]) + 1
+    if chain.closed and len(changes) == 0:
+        return [Run(str(names[0]), chain.vertices, True)]
+    cuts = [0, *changes.tolist(), len(names)]
+    return [Run(str(names[a]), path[a:b + 1], False) for a, b in pairwise(cuts)]

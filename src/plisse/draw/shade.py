@@ -22,7 +22,7 @@ def paper_colour(normals: np.ndarray, front: np.ndarray, sun: np.ndarray, sky: n
     facing = normals @ SUN.astype(np.float32)
     light = 0.56 * np.maximum(facing, 0) * sun + 0.12 * np.maximum(-facing, 0)
     light += (0.34 + 0.14 * normals[:, 1]) * sky + 0.12 * np.sqrt(sky)
-    bright = np.clip((light - 0.06) / 0.86, 0, 1)[:, None]
+    bright = np.clip((light - 0.06) / 0.94, 0, 1)[:, None]
     dark, step = _TONES
     side = front.astype(np.intp)
     return dark[side] + step[side] * bright
@@ -32,7 +32,7 @@ _PAPERS = np.stack([rgb(BACK_OF_PAPER), rgb(PAPER)])
 _TONES = ((_PAPERS * rgb(SHADE)).astype(np.float32), (_PAPERS * (1 - rgb(SHADE))).astype(np.float32))
 
 
-def occlusion(depth: np.ndarray, normals: np.ndarray, radius: float, directions: int = 10, steps: int = 6) -> np.ndarray:
+def occlusion(depth: np.ndarray, normals: np.ndarray, radius: float, directions: int = 8, steps: int = 5) -> np.ndarray:
     """How open the sky is (H, W) in 0…1 over a depth map in pixels: horizons in some directions out to `radius`."""
     safe = np.where(np.isfinite(depth), depth, -1e6).astype(np.float32)
     up = np.maximum(normals[..., 2], 0.15)
@@ -68,27 +68,27 @@ def _shifted(image: np.ndarray, sx: int, sy: int) -> np.ndarray:
     return out
 
 
-def sunlight(triangles: np.ndarray, points: np.ndarray, samples: int = 4, size: int = 800) -> np.ndarray:
-    """Fraction (N,) of the sun's disk that sees points (N, 3); triangles (T, 3, 3) in the same frame."""
-    total = np.zeros(len(points))
+def sunlight(triangles: np.ndarray, points: np.ndarray, size: int = 800) -> np.ndarray:
+    """Fraction (N,) of the sun's disk that sees points (3, N); triangles (T, 3, 3) in the same frame."""
+    samples = 4 if len(triangles) < 60_000 else 2
+    total = np.zeros(points.shape[1], np.float32)
     for k in range(samples):
         angle = 2 * np.pi * k / samples
         towards = unit(SUN + BLUR * np.array([np.cos(angle), np.sin(angle), 0]))
         right = unit(np.cross([0.0, 1.0, 0.0], towards))
         axes = np.stack([right, np.cross(towards, right), towards])
-        total += _lit(triangles @ axes.T, points @ axes.T, size)
+        total += _lit(triangles @ axes.T, axes.astype(np.float32) @ points, size)
     return total / samples
 
 
 def _lit(triangles: np.ndarray, points: np.ndarray, size: int) -> np.ndarray:
+    """1 where nothing stands between points (3, N) and the sun, 0 where something does, both seen from the sun."""
     low = triangles.min(axis=(0, 1))
     scale = size / (np.ptp(triangles.reshape(-1, 3)[:, :2], axis=0).max() * 1.001)
     depth = rasterise((triangles - low) * scale, size, size).depth
-    depth = np.where(np.isfinite(depth), depth, -1e6)
-    seen = (points - low) * scale
-    column = np.clip(seen[:, 0].astype(int), 0, size - 1)
-    row = np.clip(seen[:, 1].astype(int), 0, size - 1)
-    return np.clip(1.5 - (depth[row, column] - seen[:, 2]) / 3.0, 0, 1)
+    seen = (points - low[:, None].astype(np.float32)) * np.float32(scale)
+    column, row = np.clip(seen[:2].astype(np.int32), 0, size - 1)
+    return np.clip(1.5 - (depth[row, column] - seen[2]) / 3, 0, 1)
 
 
 def soft(image: np.ndarray, mask: np.ndarray, radius: float) -> np.ndarray:

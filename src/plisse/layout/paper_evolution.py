@@ -21,10 +21,10 @@ def evolve_literally(seed: np.ndarray, theta: np.ndarray, widths: np.ndarray, *,
                      dose: float = DOSE) -> Pattern:
     """Pattern of m pseudo-geodesics that starts with the seed (n, 3), inclined by θ (m,) in radians.
 
-    One step v[n+1] = v[n] + s (cosθ e2 + sinθ e3) per strip of `widths` (m−1, n). `dose` weighs the regulariser of
-    the binormals; its effect depends on the resolution, as in the paper. Circles become cones exactly; in general the
-    error is proportional to the width of a strip, and finely sampled curves need larger doses to stay smooth.
-    Raises Infeasible with crease, place and remedy where the pattern collapses.
+    One step v[n+1] = v[n] + s (cosθ e2 + sinθ e3) per strip of `widths` (m−1, n). `dose` weighs the
+    regulariser of the binormals; its effect depends on the resolution, as in the paper. Circles become cones
+    exactly; in general the error is proportional to the width of a strip, and finely sampled curves need
+    larger doses to stay smooth. Raises Infeasible with crease, place and remedy where the pattern collapses.
     """
     frame = optimised_frame(seed, closed, dose)
     curves, binormals = [seed], [frame.binormal]
@@ -40,23 +40,25 @@ def evolve_literally(seed: np.ndarray, theta: np.ndarray, widths: np.ndarray, *,
 
 
 def optimised_frame(points: np.ndarray, closed: bool, dose: float = DOSE) -> Frame:
-    """Frame of a polyline (n, 3) whose binormals minimise the functional of §3.2, at unit mean edge length."""
+    """Frame of a polyline (n, 3) whose binormals minimise the functional of §3.2, for unit mean edges."""
     tangent = tangents(points, closed)
     scaled = points * ((len(points) - (not closed)) / arc_length(points, closed)[-1])
     count = len(points)
     place = np.arange(count)
     key = np.where(2 * place < count, 2 * place, 2 * (count - place) - 1) if closed else place
     problem = Problem(binormal_fit(scaled, closed, dose), {"binormals": (3, key)})
-    found = levenberg_marquardt(problem, {"binormals": _osculating(scaled, closed).T}, iterations=60, damping=1e-3)
+    start = {"binormals": _osculating(scaled, closed).T}
+    found = levenberg_marquardt(problem, start, iterations=60)
     if found.status is Status.NOT_FINITE:
-        raise Infeasible("a guiding curve has coinciding points; lower pattern.width or the number of creases")
+        raise Infeasible("a guiding curve has coinciding points; "
+                         "lower pattern.width or the number of creases")
     smooth = found.blocks["binormals"].T
     binormal = unit(smooth - dot(smooth, tangent)[:, None] * tangent)
     return Frame(tangent, np.cross(binormal, tangent), binormal)
 
 
 def _osculating(points: np.ndarray, closed: bool) -> np.ndarray:
-    """Unit normals (n, 3) of the planes through three successive points; straight places take their neighbours'."""
+    """Unit normals (n, 3) of the planes through three successive points, copied to straight places."""
     vectors = curvature_vectors(points, closed)
     bent = norm(vectors) > 1e-9
     if not bent.any():

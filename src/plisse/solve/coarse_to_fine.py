@@ -16,6 +16,7 @@ from plisse.structure.pattern import interpolate_along
 __all__ = ["CoarseToFine"]
 
 MIDDLE_COLUMNS = 160
+HOPELESS = 1e-2
 
 
 @dataclass(frozen=True)
@@ -44,6 +45,9 @@ class CoarseToFine:
                 iterations += len(done.history) - 2
                 history += done.history[:-1]
                 displacement = level.displacement(done.vertices)
+                if done.defect > HOPELESS:  # finer levels only polish: they cannot mend what is wrong here
+                    displacement = _Level(start, start.samples).interpolated(displacement)
+                    break
         except NotPositiveDefinite as error:
             return Attempt(self.name, None, f"the linear systems break down: {error}", iterations, tuple(history))
         if not np.isfinite(displacement).all():
@@ -71,9 +75,12 @@ class _Level:
 
     def displaced(self, displacement: np.ndarray) -> np.ndarray:
         """Vertices (3, V) for a displacement (m, n', 3) from another level."""
+        return self.rest + (self.interpolated(displacement) / self._unit).reshape(-1, 3).T
+
+    def interpolated(self, displacement: np.ndarray) -> np.ndarray:
+        """Displacement (m, n, 3) at this level from one (m, n', 3) at another, in model units."""
         parameters = np.linspace(0, 1, self._guides.shape[1], endpoint=not self._closed)
-        fine = interpolate_along(displacement, self._closed, 3)(parameters).swapaxes(0, 1)
-        return self.rest + (fine / self._unit).reshape(-1, 3).T
+        return interpolate_along(displacement, self._closed, 3)(parameters).swapaxes(0, 1)
 
     def displacement(self, vertices: np.ndarray) -> np.ndarray:
         """Displacement (m, n, 3) of vertices (3, V) from the guides, in model units."""

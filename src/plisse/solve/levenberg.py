@@ -50,11 +50,12 @@ class _Step:
 
 
 def levenberg_marquardt(problem: Problem, blocks: Blocks, *, iterations: int = 20, damping: float = 1e-3,
-                        tolerance: float = 1e-12, renew: Callable[[Blocks], Problem] | None = None) -> Minimum:
+                        tolerance: float = 1e-12,
+                        renew: Callable[[Blocks], Problem] | None = None) -> Minimum:
     """Minimise Σ weight · residual² from blocks, for unknowns and residuals whose natural size is about 1.
 
-    One accepted step is one iteration. It ends when a step gains less than `tolerance` of the cost. `renew` returns
-    the problem with data frozen at the given blocks; it is asked before each step.
+    One accepted step is one iteration. It ends when a step gains less than `tolerance` of the cost. `renew`
+    returns the problem with data frozen at the given blocks; it is asked before each step.
     """
     history: list[float] = []
     factorisations, status = 0, Status.EXHAUSTED

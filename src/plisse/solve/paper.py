@@ -1,11 +1,11 @@
 """The paper's optimisation, functional (5) of §3.4 as printed: 5V + 3F unknowns in two stages.
 
-E = λ1 E_plan + λ2 E_close + λ3 E_isom + λ4 E_fair + λ5 E_principal over vertices, development and normals. Lengths
-are normalised to a mean edge of 1, because the energies depend on scale.
+E = λ1 E_plan + λ2 E_close + λ3 E_isom + λ4 E_fair + λ5 E_principal over vertices, development and normals.
+Lengths are normalised to a mean edge of 1, because the energies depend on scale.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -16,10 +16,10 @@ from plisse.measure.planarity import face_normals
 from plisse.solve.energies import Guides, closeness, constant_fold, fairness, plane_fit
 from plisse.solve.energies.angle_sum import angle_sum
 from plisse.solve.energies.kernel import Rows, Term
-from plisse.solve.energies.length import equal_length, given_length, isometry_pairs
+from plisse.solve.energies.length import equal_length, given_length
 from plisse.solve.flatten import unfold
 from plisse.solve.levenberg import Status, levenberg_marquardt
-from plisse.solve.problem import Problem
+from plisse.solve.problem import Blocks, Problem
 from plisse.structure.cut import Cut, uncut
 from plisse.structure.topology import Topology
 
@@ -32,7 +32,8 @@ UNFOLDING_STEPS = 60
 class PaperSolution:
     """Vertices (V, 3), development (V', 2) over the cut topology and unit normals (F, 3), in model units.
 
-    `history` is the value of functional (5) at the start and after each iteration, in units of the mean edge length.
+    `history` is the value of functional (5) at the start and after each iteration, in units of the mean edge
+    length.
     """
 
     vertices: np.ndarray
@@ -49,24 +50,29 @@ def paper_weights(principal: bool) -> tuple[float, float, float, float, float]:
     return 10.0, 1.0, 100.0, 1.0, 100.0 if principal else 0.0
 
 
-def solve_paper(topology: Topology, vertices: np.ndarray, guides: Guides, *, weights: Sequence[float] | None = None,
-                iterations: int = 20, cut: Cut | None = None, principal: bool = False) -> PaperSolution:
+def solve_paper(topology: Topology, vertices: np.ndarray, guides: Guides, *,
+                weights: Sequence[float] | None = None, iterations: int = 20, cut: Cut | None = None,
+                principal: bool = False) -> PaperSolution:
     """Both stages of §3.4 from zigzagged vertices (V, 3); one Levenberg–Marquardt step is one iteration.
 
-    Closed structures bring a `cut`. Along it the functional as printed leaves the angle sums free, because each copy
-    is isometric to its own side only; one condition Σω = 2π per vertex inside the cut, weighted like E_isom, closes
-    that gap and makes both copies congruent.
+    Closed structures bring a `cut`. Along it the functional as printed leaves the angle sums free, because
+    each copy is isometric to its own side only; one condition Σω = 2π per vertex inside the cut, weighted
+    like E_isom, closes that gap and makes both copies congruent.
     """
     cut = uncut(topology) if cut is None else cut
     unit = _mean_edge(topology, vertices)
     scaled = vertices / unit
     flat = quasi_unfolding(cut, scaled)
-    functional = _Functional(topology, cut, Guides(topology, guides.vertices / unit, guides.principal_normals),
-                             tuple(paper_weights(principal) if weights is None else weights))
+    rest = replace(guides, vertices=guides.vertices / unit)
+    weights = paper_weights(principal) if weights is None else weights
+    functional = _Functional(topology, cut, rest, tuple(weights))
     start = {"vertices": scaled.T, "development": flat.T, "normals": face_normals(topology, scaled).T}
     problem = Problem(functional.terms(scaled), functional.keys()).prepare()
-    found = levenberg_marquardt(problem, start, iterations=iterations, damping=1e-4,
-                                renew=lambda blocks: problem.with_terms(functional.terms(blocks["vertices"].T)))
+
+    def renewed(blocks: Blocks) -> Problem:
+        return problem.with_terms(functional.terms(blocks["vertices"].T))
+
+    found = levenberg_marquardt(problem, start, iterations=iterations, damping=1e-4, renew=renewed)
     return PaperSolution(unit * found.blocks["vertices"].T, unit * found.blocks["development"].T,
                          found.blocks["normals"].T, found.history, found.iterations, found.factorisations,
                          found.status)
@@ -84,8 +90,8 @@ class _Functional:
     def terms(self, vertices: np.ndarray) -> list[Term]:
         """All terms, with the feet and normals of E_close frozen at vertices (V, 3)."""
         plan, close, isom, fair, principal = self.weights
-        terms = [*plane_fit(self.topology, plan), closeness(self.guides, vertices, close), *self._isometry(isom),
-                 fairness(self.topology, fair), constant_fold(self.topology, principal)]
+        terms = [*plane_fit(self.topology, plan), closeness(self.guides, vertices, close),
+                 *self._isometry(isom), fairness(self.topology, fair), constant_fold(self.topology, principal)]
         return [term for term in terms if term.weight > 0 and term.count]
 
     def keys(self) -> dict[str, tuple[int, np.ndarray]]:
@@ -98,22 +104,24 @@ class _Functional:
 
     def _isometry(self, weight: float) -> list[Term]:
         """E_isom between space and the opened development, and the angle sums that it misses along the cut."""
-        i, j = isometry_pairs(self.cut.topology).T
+        i, j = self.cut.topology.rods.T
         source = self.cut.source
-        rows = (Rows("vertices", source[i]), Rows("vertices", source[j]), Rows("development", i), Rows("development", j))
-        terms = [Term("isometry", equal_length, rows, weight)]
+        pairs = (Rows("vertices", source[i]), Rows("vertices", source[j]),
+                 Rows("development", i), Rows("development", j))
+        terms = [Term("isometry", equal_length, pairs, weight)]
         opened = np.unique(source[self.topology.vertex_count:])
         for stars in self.topology.stars.values():
             along = stars[np.isin(stars[:, 0], opened)]
-            terms.append(Term("cut", angle_sum, tuple(Rows("vertices", column) for column in along.T), weight))
+            rows = tuple(Rows("vertices", column) for column in along.T)
+            terms.append(Term("cut", angle_sum, rows, weight))
         return terms
 
 
 def quasi_unfolding(cut: Cut, vertices: np.ndarray) -> np.ndarray:
     """Stage 1: the development (V', 2) as isometric as possible to vertices (V, 3), from a square grid.
 
-    Faces are unfolded one after another instead where the topology is no part of a grid, or where the grid gets
-    caught in a development with overturned faces.
+    Faces are unfolded one after another instead where the topology is no part of a grid, or where the grid
+    gets caught in a development with overturned faces.
     """
     topology, space = cut.topology, vertices[cut.source]
     squares = square_grid(topology)
@@ -125,7 +133,7 @@ def quasi_unfolding(cut: Cut, vertices: np.ndarray) -> np.ndarray:
 
 
 def square_grid(topology: Topology) -> np.ndarray | None:
-    """Integer coordinates (V, 2) of a topology that is part of a square grid, creases along x; None otherwise."""
+    """Integer coordinates (V, 2) of a topology that is part of a square grid, creases along x; or None."""
     if topology.hubs or topology.components > 1:
         return None
     a, b, c, d = topology.quads.T
@@ -145,12 +153,13 @@ def square_grid(topology: Topology) -> np.ndarray | None:
 
 def _most_isometric(topology: Topology, space: np.ndarray, flat: np.ndarray) -> np.ndarray:
     """The development (V', 2) that minimises E_isom for fixed vertices."""
-    i, j = isometry_pairs(topology).T
+    i, j = topology.rods.T
     key = np.arange(topology.vertex_count) if topology.ordering is None else topology.ordering
     square = dot(space[i] - space[j], space[i] - space[j])
     term = Term("isometry", given_length, (Rows("flat", i), Rows("flat", j)), 1.0, {"square": square})
-    found = levenberg_marquardt(Problem([term], {"flat": (2, key)}), {"flat": flat.T}, iterations=UNFOLDING_STEPS,
-                                damping=1.0, tolerance=1e-6)
+    problem = Problem([term], {"flat": (2, key)})
+    found = levenberg_marquardt(problem, {"flat": flat.T}, iterations=UNFOLDING_STEPS, damping=1.0,
+                                tolerance=1e-6)
     return found.blocks["flat"].T
 
 

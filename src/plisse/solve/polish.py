@@ -11,6 +11,7 @@ __all__ = ["Polished", "polish"]
 
 TOLERANCE = 2e-13
 LONGEST_STEP = 0.5
+PATIENCE = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +37,7 @@ def polish(constraints: Constraints, vertices: np.ndarray, *, steps: int = 10, c
     best = current = vertices
     history: list[float] = []
     factor = jacobian = None
-    factorisations = 0
+    factorisations = waited = 0
     least = np.inf
     for _ in range(steps + 1):
         residual = constraints.residual(current)
@@ -46,9 +47,12 @@ def polish(constraints: Constraints, vertices: np.ndarray, *, steps: int = 10, c
         if not np.isfinite(defect):
             break
         if defect < least:
-            best, least = current, defect
+            best, least, waited = current, defect, 0
+        else:
+            waited += 1
         floor = 6 * np.finfo(float).eps * np.abs(current).max()
-        if defect < max(TOLERANCE, floor) or (stale and defect < 50 * floor) or len(history) > steps:
+        if defect < max(TOLERANCE, floor) or (stale and defect < 50 * floor) or waited > PATIENCE \
+                or len(history) > steps:
             break
         if factor is None or stale or not chord:
             jacobian = constraints.jacobian(current)

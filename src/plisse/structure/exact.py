@@ -5,7 +5,7 @@ All lengths are in model units, all angles in radians; vertex (l, i) of every st
 
 import numpy as np
 
-from plisse.geometry.vectors import angle_between, dot, norm, unit
+from plisse.geometry.vectors import angle_between, norm, unit
 from plisse.structure.cut import cut_along
 from plisse.structure.grid import grid
 from plisse.structure.pleated import PleatedStructure
@@ -17,11 +17,11 @@ def alternating_cones(creases: int = 6, columns: int = 24, *, radius: float = 1.
                       slope: float = 0.8, sector: float = 2.0, closed: bool = False) -> PleatedStructure:
     """Strips of cones that rise and fall with equal slope: the pleated annulus, exact and principal.
 
-    Creases are regular polygons of radii R + l·width at heights 0, width·slope, 0, …; δ = sector/(columns − 1) is the
-    angle of one edge, 2π/columns if `closed`. Slopes of rulings are ±atan `slope` = ±β, so the base angles of the
-    trapezoids obey cos α = cos β sin(δ/2) in every strip, and α, α, π − α, π − α meet in a vertex. All crease edges
-    fold by 2 atan(slope / cos(δ/2)). The development is concentric, its radii are stretched by 1/cos β and its
-    angles δ' obey sin(δ'/2) = cos β sin(δ/2).
+    Creases are regular polygons of radii R + l·width at heights 0, width·slope, 0, …; δ = sector/(columns −
+    1) is the angle of one edge, 2π/columns if `closed`. Slopes of rulings are ±atan `slope` = ±β, so the base
+    angles of the trapezoids obey cos α = cos β sin(δ/2) in every strip, and α, α, π − α, π − α meet in a
+    vertex. All crease edges fold by 2 atan(slope / cos(δ/2)). The development is concentric, its radii are
+    stretched by 1/cos β and its angles δ' obey sin(δ'/2) = cos β sin(δ/2).
     """
     step = 2 * np.pi / columns if closed else sector / (columns - 1)
     angle = -step * np.arange(columns)
@@ -33,7 +33,7 @@ def alternating_cones(creases: int = 6, columns: int = 24, *, radius: float = 1.
     cosine = 1 / np.hypot(1, slope)
     flat_step = 2 * np.arcsin(cosine * np.sin(step / 2))
     flat_angle = -flat_step * np.arange(columns + closed)
-    flat = np.stack([rings[:, None] * np.cos(flat_angle), rings[:, None] * np.sin(flat_angle)], axis=-1) / cosine
+    flat = rings[:, None, None] * np.stack([np.cos(flat_angle), np.sin(flat_angle)], axis=-1) / cosine
     if not closed:
         return PleatedStructure(topology, vertices.reshape(-1, 3), development=flat.reshape(-1, 2))
     cut = cut_along(topology, topology.rulings[0])
@@ -49,10 +49,10 @@ def alternating_cones(creases: int = 6, columns: int = 24, *, radius: float = 1.
 
 def miura(creases: int = 5, columns: int = 8, *, edge: float = 1.0, ruling: float = 1.3, sector: float = 1.1,
           fold: float = 0.9) -> PleatedStructure:
-    """The Miura-ori: congruent parallelograms with angle `sector` = γ between crease edges and rulings, principal.
+    """The Miura-ori: parallelograms with angle `sector` = γ between crease edges and rulings, principal.
 
-    The creases are the zigzags, every one a mountain or a valley along its whole length. `fold` = θ in [0, π/2) is
-    the angle of all faces against the ground; creases fold by 2θ, and θ = 0 is flat.
+    The creases are the zigzags, every one a mountain or a valley along its whole length. `fold` = θ in [0,
+    π/2) is the angle of all faces against the ground; creases fold by 2θ, and θ = 0 is flat.
     """
     rise = ruling * np.sin(fold) * np.sin(sector)
     run = ruling * np.sqrt(1 - (np.sin(fold) * np.sin(sector)) ** 2)
@@ -60,7 +60,8 @@ def miura(creases: int = 5, columns: int = 8, *, edge: float = 1.0, ruling: floa
     along, aside = edge * np.cos(fold) * np.tan(sector) / stretch, edge / stretch
     level, column = np.mgrid[:creases, :columns]
     vertices = np.stack([column * along, level * run + (column % 2) * aside, (level % 2) * rise], axis=-1)
-    flat = np.stack([column * edge * np.sin(sector), level * ruling + (column % 2) * edge * np.cos(sector)], axis=-1)
+    flat_aside = (column % 2) * edge * np.cos(sector)
+    flat = np.stack([column * edge * np.sin(sector), level * ruling + flat_aside], axis=-1)
     return PleatedStructure(grid(creases, columns), vertices.reshape(-1, 3), development=flat.reshape(-1, 2))
 
 
@@ -70,7 +71,7 @@ def conical_vertex(first: float = 1.2, second: float = 1.5, fold: float = 1.0) -
     Both crease edges fold by `fold` = φ1, the two rulings by ±φ2 with
     tan(φ2/2) / tan(φ1/2) = sin((ω2 − ω1)/2) / sin((ω2 + ω1)/2), ω1 and ω2 on both sides of a crease edge.
     """
-    # sectors in turn from the forward crease edge: ω1, then ω2, π − ω1, π − ω2; ω1 and π − ω2 lie beside that edge
+    # sectors in turn from the forward crease edge: ω1, ω2, π − ω1, π − ω2; the first and last lie beside it
     direction = np.array([0.0, first, first + second, np.pi + second])
     forward, up, backward, down = np.stack([np.cos(direction), np.sin(direction)], axis=1)
     column, level = [backward, 0 * up, forward], [down, 0 * up, up]
@@ -84,12 +85,13 @@ def conic_creases(creases: int = 5, columns: int = 24, *, eccentricity: float = 
                   fold: float = 1.2, start: float = 1.0, step: float = 0.09) -> PleatedStructure:
     """A principal structure of cones whose creases develop into similar ellipses with shared foci (Fig. 5).
 
-    On the first ellipse (half axes 1 and √(1 − e²)) vertices are the bounces of a billiard ball from eccentric angle
-    `start`, the first bounce `step` further: edges reflect in the true normals, as the rays between the foci do, and
-    that is ω1 + ω3 = π. Every next ellipse is the last one enlarged by `growth` from one of its foci, alternately: it
-    inherits that focus and the rulings of the strip run through it. With ν the angle of edges and μ that of focal
-    rays against the normal, cos ν / cos μ = J along a billiard path (Joachimsthal), hence tan(φ_r/2) =
-    J tan(φ_c/2): all creases fold by `fold`, all rulings by one and the same angle, and everything closes.
+    On the first ellipse (half axes 1 and √(1 − e²)) vertices are the bounces of a billiard ball from
+    eccentric angle `start`, the first bounce `step` further: edges reflect in the true normals, as the rays
+    between the foci do, and that is ω1 + ω3 = π. Every next ellipse is the last one enlarged by `growth` from
+    one of its foci, alternately: it inherits that focus and the rulings of the strip run through it. With ν
+    the angle of edges and μ that of focal rays against the normal, cos ν / cos μ = J along a billiard path
+    (Joachimsthal), hence tan(φ_r/2) = J tan(φ_c/2): all creases fold by `fold`, all rulings by one and the
+    same angle, and everything closes.
     """
     short = np.sqrt(1 - eccentricity**2)
     points, joachimsthal = _billiard(short, start, step, columns)
@@ -117,15 +119,15 @@ def _billiard(short: float, start: float, step: float, count: int) -> tuple[np.n
 
 
 def folded_grid(flat: np.ndarray, crease_folds, ruling_folds) -> PleatedStructure:
-    """The structure that a flat pattern (m, n, 2) becomes with given fold angles, valleys positive.
+    """What a flat pattern (m, n, 2) becomes with given fold angles, valleys positive.
 
-    `crease_folds` (m − 2,) are the folds of inner creases, `ruling_folds` (n − 2,) those of the rulings of the first
-    strip; both must fit the pattern, for faces are placed along one tree and nothing is averaged.
+    `crease_folds` (m − 2,) are the folds of inner creases, `ruling_folds` (n − 2,) those of the rulings of
+    the first strip; both must fit the pattern, for faces are placed along one tree and nothing is averaged.
     """
     flat3 = np.concatenate([flat, np.zeros((*flat.shape[:2], 1))], axis=-1)
     rotation, shift = [np.eye(3)], [np.zeros(3)]
     for i, fold in enumerate(ruling_folds, start=1):
-        turn = _rotation(unit(flat3[0, i] - flat3[1, i]), -np.asarray(fold))
+        turn = _rotation(unit(flat3[0, i] - flat3[1, i]), np.asarray(fold))
         rotation.append(rotation[-1] @ turn)
         hinge = flat3[0, i]
         shift.append(shift[-1] + rotation[-2] @ hinge - rotation[-1] @ hinge)
@@ -133,7 +135,7 @@ def folded_grid(flat: np.ndarray, crease_folds, ruling_folds) -> PleatedStructur
     strips = [strip]
     for level, fold in enumerate(crease_folds, start=1):
         hinge = flat3[level, :-1]
-        turned = strip[0] @ _rotation(unit(flat3[level, 1:] - flat3[level, :-1]), -np.asarray(fold))
+        turned = strip[0] @ _rotation(unit(flat3[level, 1:] - flat3[level, :-1]), np.asarray(fold))
         strip = turned, strip[1] + _apply(strip[0], hinge) - _apply(turned, hinge)
         strips.append(strip)
     rows = [strips[0], *strips]
@@ -151,20 +153,21 @@ def _rotation(axis: np.ndarray, angle: np.ndarray) -> np.ndarray:
     """Rotations (…, 3, 3) about unit axes (…, 3)."""
     x, y, z = np.moveaxis(axis, -1, 0)
     zero = np.zeros_like(x)
-    skew = np.stack([np.stack([zero, -z, y], -1), np.stack([z, zero, -x], -1), np.stack([-y, x, zero], -1)], -2)
+    skew = np.moveaxis(np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]), (0, 1), (-2, -1))
     return np.eye(3) + np.sin(angle) * skew + (1 - np.cos(angle)) * skew @ skew
 
 
-def marched(creases: int = 4, columns: int = 20, *, width: float = 0.15, bend: float = 0.8,
+def marched(creases: int = 4, columns: int = 16, *, width: float = 0.15, bend: float = 0.8,
             reach: float = 0.6, fold: float | None = None) -> PleatedStructure:
     """A general, not principal, structure that begins with a strip of the unit cylinder.
 
-    Given a strip, any crease q on its rulings and the fold at the first crease edge, the next strip follows vertex by
-    vertex: with b, f unit vectors to q[i−1], q[i+1], S = 2π − ω1 − ω2 and h the unit direction of the new face i − 1
-    orthogonal to b, the ruling is cos x b + sin x h with tan x = (b·f − cos S) / (sin S − h·f). The second crease has
-    distance `width` + `bend` s²/2 from the circle where the cylinder begins, s its arc length from −`reach` to
-    `reach`; later creases have distance `width`. Without `fold` the first edge folds so that
-    rulings do not alternate, close to where the osculating plane mirrors the faces, as it does on smooth creases.
+    Given a strip, any crease q on its rulings and the fold at the first crease edge, the next strip follows
+    vertex by vertex: with b, f unit vectors to q[i−1], q[i+1], S = 2π − ω1 − ω2 and h the unit direction of
+    the new face i − 1 orthogonal to b, the ruling is cos x b + sin x h with tan x = (b·f − cos S) / (sin S −
+    h·f). The second crease has distance `width` + `bend` s²/2 from the circle where the cylinder begins, s
+    its arc length from −`reach` to `reach`; later creases have distance `width`. Without `fold` the first
+    edge folds so that rulings do not alternate, close to where the osculating plane mirrors the faces, as it
+    does on smooth creases.
     """
     arc = np.linspace(-reach, reach, columns)
     start = np.stack([np.sin(arc), -np.cos(arc), 0 * arc], axis=1)
@@ -196,7 +199,7 @@ def _next_rulings(crease: np.ndarray, back: np.ndarray, fold: float | None) -> n
 
 
 def _around(edge: np.ndarray, left: np.ndarray, inward: np.ndarray) -> np.ndarray:
-    """Rulings (n, 3) for sector sums `left` (n − 2,) on the new side, from the direction `inward` of the first face."""
+    """Rulings (n, 3) for sector sums `left` (n − 2,) beyond a crease; `inward` lies in the first new face."""
     rulings = []
     for i, remaining in enumerate(left):
         b, f = -edge[i], edge[i + 1]
@@ -204,11 +207,12 @@ def _around(edge: np.ndarray, left: np.ndarray, inward: np.ndarray) -> np.ndarra
         ruling = np.cos(x) * b + np.sin(x) * inward
         inward = unit(ruling - (ruling @ f) * f)
         rulings.append(ruling)
-    return np.array([_end(*rulings[:3], edge[0]), *rulings, _end(*rulings[:-4:-1], edge[-1])])
+    return np.array([_end(rulings[:3], edge[0]), *rulings, _end(rulings[:-4:-1], edge[-1])])
 
 
-def _end(nearest: np.ndarray, second: np.ndarray, third: np.ndarray, edge: np.ndarray) -> np.ndarray:
-    """A free ruling in the plane of an edge and its nearest ruling, the turn continued."""
+def _end(rulings: list[np.ndarray], edge: np.ndarray) -> np.ndarray:
+    """A free ruling in the plane of the end's edge and the nearest of three rulings, the turn continued."""
+    nearest, second, third = rulings
     turn = 2 * angle_between(nearest, second) - angle_between(second, third)
     away = unit(nearest - (nearest @ edge) * edge)
     sign = np.sign((nearest - second) @ edge)

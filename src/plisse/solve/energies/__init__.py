@@ -12,7 +12,8 @@ from plisse.solve.energies.plane import edge_in_plane, plane_fit, unit_length
 from plisse.solve.energies.principal import constant_fold, equal_cosine
 from plisse.solve.energies.volume import planarity, tetrahedron_volume
 
-__all__ = ["KERNELS", "Guides", "Kernel", "Rows", "Term", "angle_sum", "binormal_fit", "closeness", "constant_fold",
-           "developability", "displacement_fairness", "edge_in_plane", "equal_cosine", "equal_length", "fairness",
-           "flat_fold", "flat_foldability", "given_length", "isometry", "isometry_pairs", "offset_along",
-           "orthogonal_to_edge", "plane_fit", "planarity", "tetrahedron_volume", "unit_length"]
+__all__ = ["KERNELS", "Guides", "Kernel", "Rows", "Term", "angle_sum", "binormal_fit", "closeness",
+           "constant_fold", "developability", "displacement_fairness", "edge_in_plane", "equal_cosine",
+           "equal_length", "fairness", "flat_fold", "flat_foldability", "given_length", "isometry",
+           "isometry_pairs", "offset_along", "orthogonal_to_edge", "planarity", "plane_fit",
+           "tetrahedron_volume", "unit_length"]

@@ -22,7 +22,7 @@ def _(binormal, *, edge):
 
 
 def binormal_fit(points: np.ndarray, closed: bool, regulariser: float) -> list[Term]:
-    """Binormals e3 orthogonal to both edges at every point (n, 3), of length 1 and, by the regulariser, smooth."""
+    """Binormals e3 of points (n, 3): orthogonal to both edges, of length 1, smooth by the regulariser."""
     index = np.arange(len(points))
     successor = np.roll(index, -1) if closed else index[1:]
     start = index if closed else index[:-1]
@@ -31,5 +31,5 @@ def binormal_fit(points: np.ndarray, closed: bool, regulariser: float) -> list[T
     return [Term("edge_after", orthogonal_to_edge, (Rows("binormals", start),), 1.0, {"edge": edge}),
             Term("edge_before", orthogonal_to_edge, (Rows("binormals", successor),), 1.0, {"edge": -edge}),
             Term("unit_binormal", unit_length, (Rows("binormals", index),)),
-            Term("regulariser", displacement_bend, tuple(Rows("binormals", column) for column in bends), regulariser,
-                 {"rest": 0.0})]
+            Term("regulariser", displacement_bend, tuple(Rows("binormals", column) for column in bends),
+                 regulariser, {"rest": 0.0})]

@@ -1,4 +1,4 @@
-"""Closeness to the guiding creases: E_close of §3.4, which lets vertices slide along creases and out of the surface."""
+"""Closeness to the guiding creases: E_close of §3.4; vertices may slide along them and out of the surface."""
 
 from dataclasses import dataclass
 
@@ -6,11 +6,15 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from plisse.geometry import components
+from plisse.geometry.frames import regularised_frame
+from plisse.geometry.polyline import arc_length, tangents
 from plisse.geometry.vectors import dot, unit
 from plisse.solve.energies.kernel import Rows, Term, kernel
 from plisse.structure.topology import Polyline, Topology
 
 __all__ = ["Guides", "closeness", "offset_along"]
+
+SMOOTHING = 0.02  # of a crease's length, over which binormals are smoothed
 
 
 @kernel
@@ -31,6 +35,22 @@ class Guides:
     topology: Topology
     vertices: np.ndarray
     principal_normals: np.ndarray
+
+    @classmethod
+    def along_creases(cls, topology: Topology, vertices: np.ndarray,
+                      binormals: np.ndarray | None = None) -> "Guides":
+        """Guides through vertices (V, 3); e2 = e3 × e1 comes from binormals (V, 3) where these are known."""
+        normals = np.zeros_like(vertices)
+        for crease in topology.creases:
+            points = vertices[crease.vertices]
+            if binormals is None:
+                smoothing = SMOOTHING * arc_length(points, crease.closed)[-1]
+                frame = regularised_frame(points, crease.closed, smoothing)
+                normals[crease.vertices] = frame.principal_normal
+            else:
+                across = np.cross(binormals[crease.vertices], tangents(points, crease.closed))
+                normals[crease.vertices] = unit(across)
+        return cls(topology, vertices, normals)
 
     def feet(self, vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Closest points v* (V, 3) on each vertex's own crease and the principal normals n* (V, 3) there."""
@@ -53,7 +73,7 @@ def closeness(guides: Guides, vertices: np.ndarray, weight: float = 1.0) -> Term
 
 def _closest_segments(crease: Polyline, line: np.ndarray,
                       points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Ends (vertex numbers) of the segment closest to each point (n, 3), and where along it the foot is, in [0, 1].
+    """Ends (vertex numbers) of the segment closest to each point (n, 3), and the foot's place in it.
 
     Only the two segments at the nearest vertex are tried.
     """

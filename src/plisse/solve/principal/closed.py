@@ -10,7 +10,7 @@ from plisse.solve.principal.march import Crease, distance_maps, fold_maps, fold_
 from plisse.solve.principal.moebius import affine_chain, homogeneous_chain
 from plisse.solve.principal.strip import Strip
 
-__all__ = ["close_crease", "closed_crease", "closing_slopes"]
+__all__ = ["close_crease", "closed_crease", "closing_gaps", "follow"]
 
 _STEP = 1e-6  # of the central differences
 _LONGEST = 0.2  # radians per Newton step
@@ -24,34 +24,33 @@ def closed_crease(strip: Strip, distance: np.ndarray, direction: np.ndarray, fol
 
 
 def close_crease(strip: Strip, distance: np.ndarray, start: np.ndarray, iterations: int = 12,
-                 tolerance: float = 3e-15) -> tuple[np.ndarray, np.ndarray]:
+                 tolerance: float = 1e-12) -> tuple[np.ndarray, np.ndarray]:
     """Numbers (β, φ) (B, 2) that close the crease at distance (B,), and the remaining gaps (B,).
 
-    `start` (B, 2) is a guess; at most `iterations` Newton steps, the best iterate is returned.
+    `start` (B, 2) is a guess. At most `iterations` Newton steps; the last one is taken from below the tolerance.
     """
-    folds = ruling_folds(strip, closed=True)
-    numbers = np.array(start, dtype=float)
-    best, least = numbers, np.full(len(numbers), np.inf)
+    best = np.array(start, dtype=float)
+    least = np.full(len(best), np.inf)
+    numbers = best
     for _ in range(iterations):
-        gap = _gaps(strip, folds, distance, numbers)
+        gap, slopes = closing_gaps(strip, distance, numbers)
         size = np.abs(gap).max(axis=-1)
-        better = size < least
+        better, done = size < least, least.max() < tolerance
         best, least = np.where(better[:, None], numbers, best), np.where(better, size, least)
-        if not better.any() or least.max() < tolerance:
+        if done or not better.any():
             break
-        numbers = best - bounded(_solve(closing_slopes(strip, distance, best), _gaps(strip, folds, distance, best)))
+        numbers = best - _bounded(_solve(slopes, gap))
     return best, least
 
 
-def closing_slopes(strip: Strip, distance: np.ndarray, numbers: np.ndarray) -> np.ndarray:
-    """Derivatives (B, 2, 2) of the two gaps by (β, φ), by central differences."""
+def closing_gaps(strip: Strip, distance: np.ndarray, numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """By how much creases (B, 2) miss themselves (B, 2), and its derivatives (B, 2, 2), by central differences."""
     folds = ruling_folds(strip, closed=True)
-    columns = []
-    for shift in _STEP * np.eye(2):
-        forth = _gaps(strip, folds, distance, numbers + shift)
-        back = _gaps(strip, folds, distance, numbers - shift)
-        columns.append((forth - back) / (2 * _STEP))
-    return np.stack(columns, axis=-1)
+    shifts = _STEP * np.array([[0, 0], [1, 0], [0, 1], [-1, 0], [0, -1]])
+    displaced = (numbers + shifts[:, None]).reshape(-1, 2)
+    members = Strip(*(np.tile(array, (1, 5, 1)) for array in strip))
+    gaps = _gaps(members, np.tile(folds, (5, 1)), np.tile(distance, 5), displaced).reshape(5, -1, 2)
+    return gaps[0], np.stack([gaps[1] - gaps[3], gaps[2] - gaps[4]], axis=-1) / (2 * _STEP)
 
 
 def follow(strip: Strip, distance: np.ndarray, numbers: np.ndarray, slopes: np.ndarray, steps: int = 2) -> np.ndarray:
@@ -59,11 +58,11 @@ def follow(strip: Strip, distance: np.ndarray, numbers: np.ndarray, slopes: np.n
     folds = ruling_folds(strip, closed=True)
     moved = np.repeat(numbers[None], len(distance), axis=0)
     for _ in range(steps):
-        moved = moved - bounded(_solve(slopes[None], _gaps(strip, folds, distance, moved)))
+        moved = moved - _bounded(_solve(slopes[None], _gaps(strip, folds, distance, moved)))
     return moved
 
 
-def bounded(step: np.ndarray) -> np.ndarray:
+def _bounded(step: np.ndarray) -> np.ndarray:
     """The step (B, 2), shortened to at most 0.2 rad; none where it is not finite."""
     step = np.nan_to_num(step, nan=0.0, posinf=0.0, neginf=0.0)
     longest = np.abs(step).max(axis=-1, keepdims=True)

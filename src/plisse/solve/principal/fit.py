@@ -11,10 +11,10 @@ from functools import partial
 import numpy as np
 
 from plisse.errors import Infeasible, InvalidDesign
-from plisse.solve.principal.greedy import greedy_fit, opened
+from plisse.solve.principal.direct import direct_fit
 from plisse.solve.principal.joint import joint_fit
 from plisse.solve.principal.judge import Regularity, regularity
-from plisse.solve.principal.numbers import PrincipalNumbers, start, with_terms
+from plisse.solve.principal.numbers import PrincipalNumbers
 from plisse.solve.principal.progressive import progressive_fit
 from plisse.solve.principal.realise import crease_deviation, realise
 from plisse.solve.principal.target import Target, aim
@@ -22,6 +22,7 @@ from plisse.solve.principal.target import Target, aim
 __all__ = ["PrincipalFit", "fit_candidates", "fit_principal"]
 
 _ACCEPTED = 1.0  # amplitudes
+_HOPELESS = 4.0  # amplitudes: an irregular coarse fit farther off is given up
 _LADDER = (61, 121)  # samples per crease at which the numbers are fitted first
 _DRIFT = 0.02  # amplitudes by which the deviation may grow from one resolution to the next without a new fit
 _OPEN_TERMS, _CLOSED_TERMS = 8, 9
@@ -50,7 +51,7 @@ class PrincipalFit:
     @property
     def badness(self) -> tuple[bool, float]:
         """Sort key: regular structures first, near ones before far ones."""
-        return bool(self.regularity.message), self.deviation if np.isfinite(self.deviation) else np.inf
+        return bool(self.regularity.message), self.deviation if self.deviation < np.inf else np.inf
 
 
 def fit_principal(guides: np.ndarray, amplitude: float, *, closed: bool = False, **options) -> PrincipalFit:
@@ -71,17 +72,27 @@ def fit_principal(guides: np.ndarray, amplitude: float, *, closed: bool = False,
 
 def fit_candidates(guides: np.ndarray, amplitude: float, *, closed: bool = False, terms: int | None = None,
                    stiffness: float = 0.02) -> Iterator[PrincipalFit]:
-    """Exact attempts along guides (m, n, 3), cheap ones first: other seeds, then progressively from the middle.
+    """Exact attempts along guides (m, n, 3), cheap ones first: at once, progressively, from other seeds.
 
+    Attempts that are hopeless on few samples are not refined; if all are, the least bad one is the only candidate.
     `terms` is the number of displacement coefficients of the seed per normal, `stiffness` holds them small.
     """
     guides = _checked(guides)
     centre = guides.mean(axis=(0, 1))
-    terms = terms or (_CLOSED_TERMS if closed else _OPEN_TERMS)
+    options = {"terms": terms or (_CLOSED_TERMS if closed else _OPEN_TERMS), "stiffness": stiffness}
+    hopeless: list[PrincipalFit] = []
+    any_better = False
     for seed, strategy in _strategies(len(guides), closed):
         target = aim(np.moveaxis(guides - centre, 2, 1), amplitude, seed, closed)
-        fitted, numbers = _up_the_ladder(target, partial(strategy, terms=terms, stiffness=stiffness), stiffness)
-        yield _result(fitted, numbers, centre)
+        coarse = target.at(min(_LADDER[0], target.samples))
+        attempt = _result(coarse, strategy(coarse, **options), centre)
+        if attempt.badness > (True, _HOPELESS):
+            hopeless.append(_result(target, attempt.numbers, centre))
+        else:
+            any_better = True
+            yield _result(target, _refined(target, coarse, attempt.numbers, stiffness), centre)
+    if not any_better:
+        yield min(hopeless, key=lambda attempt: attempt.badness)
 
 
 Strategy = Callable[..., PrincipalNumbers]
@@ -90,43 +101,30 @@ Strategy = Callable[..., PrincipalNumbers]
 def _strategies(creases: int, closed: bool) -> Iterator[tuple[int, Strategy]]:
     """Seed crease and first fit of each attempt."""
     middle = creases // 2
-    plain = _closed_fit if closed else _plain_fit
-    yield middle, plain
+    yield middle, direct_fit
     yield middle, partial(progressive_fit, windows=(1.0,))
     if creases >= 6:
-        yield creases // 3, plain
-        yield 2 * creases // 3, plain
-    yield middle, partial(progressive_fit, windows=(0.4, 0.7, 1.0))
+        yield creases // 3, partial(progressive_fit, windows=(1.0,))
+        yield 2 * creases // 3, partial(progressive_fit, windows=(1.0,))
+    if not closed:
+        yield middle, partial(progressive_fit, windows=(0.4, 0.7, 1.0))
 
 
-def _plain_fit(target: Target, terms: int, stiffness: float) -> PrincipalNumbers:
-    """Greedy, then all numbers together, then with a displaced seed."""
-    numbers = greedy_fit(target, opened(target, start(target)))
-    numbers, _ = joint_fit(target, numbers, 20)
-    return joint_fit(target, with_terms(numbers, terms), 25, stiffness)[0]
-
-
-def _closed_fit(target: Target, terms: int, stiffness: float) -> PrincipalNumbers:
-    numbers, _ = joint_fit(target, start(target), 20)
-    return joint_fit(target, with_terms(numbers, terms), 25, stiffness)[0]
-
-
-def _up_the_ladder(target: Target, first_fit: Strategy, stiffness: float) -> tuple[Target, PrincipalNumbers]:
-    """Fit coarsely, then refine the numbers where finer samples call for it."""
-    rungs = [samples for samples in _LADDER if 1.5 * samples < target.samples] + [target.samples]
-    coarse = target.at(rungs[0])
-    numbers = first_fit(coarse)
-    deviation = _largest(coarse, numbers)
-    for samples in rungs[1:]:
+def _refined(target: Target, coarse: Target, numbers: PrincipalNumbers, stiffness: float) -> PrincipalNumbers:
+    """Numbers for all samples: fitted again only where finer samples show new faults."""
+    for samples in [*(rung for rung in _LADDER[1:] if 1.5 * rung < target.samples), target.samples]:
         fine = target.at(samples)
-        if not _largest(fine, numbers) < deviation + _DRIFT:
+        if _is_worse(fine, coarse, numbers):
             numbers, _ = joint_fit(fine, numbers, 12, stiffness)
-        deviation = _largest(fine, numbers)
-    return target, numbers
+        coarse = fine
+    return numbers
 
 
-def _largest(target: Target, numbers: PrincipalNumbers) -> float:
-    return float(crease_deviation(target, realise(target, numbers)).max())
+def _is_worse(fine: Target, coarse: Target, numbers: PrincipalNumbers) -> bool:
+    """Irregular, or farther from the guides than on fewer samples."""
+    creases = realise(fine, numbers)
+    allowed = crease_deviation(coarse, realise(coarse, numbers)).max() + _DRIFT
+    return bool(regularity(creases, fine.closed).message) or not crease_deviation(fine, creases).max() < allowed
 
 
 def _result(target: Target, numbers: PrincipalNumbers, centre: np.ndarray) -> PrincipalFit:

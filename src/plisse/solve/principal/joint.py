@@ -5,7 +5,7 @@ The batch of a strip has one member per unknown that can have changed it, so it 
 
 import numpy as np
 
-from plisse.solve.principal.closed import close_crease, closed_crease, closing_slopes, follow
+from plisse.solve.principal.closed import close_crease, closed_crease, closing_gaps, follow
 from plisse.solve.principal.levenberg import DIFFERENCE, NormalEquations, minimise
 from plisse.solve.principal.march import Crease, next_crease
 from plisse.solve.principal.numbers import PrincipalNumbers, pack, seed_columns, trio_columns, unpack
@@ -80,7 +80,7 @@ def _found(target: Target, unknowns: np.ndarray, strip: Strip, crease: int, trio
     distance = numbers[:, 0] * target.widths[crease]
     if not target.closed:
         return next_crease(strip, distance, numbers[:, 1], numbers[:, 2])
-    slopes = closing_slopes(strip.column(slice(1)), distance[:1], numbers[:1, 1:])
+    _, slopes = closing_gaps(strip.column(slice(1)), distance[:1], numbers[:1, 1:])
     numbers[1:, 1:] = follow(strip.column(slice(1, None)), distance[1:], numbers[0, 1:], slopes[0])
     return closed_crease(strip, distance, numbers[:, 1], numbers[:, 2])
 

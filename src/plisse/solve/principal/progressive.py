@@ -1,5 +1,6 @@
 """Progressive fit: creases join one by one, then the fitted part of their length grows."""
 
+from plisse.solve.principal.direct import is_lost
 from plisse.solve.principal.greedy import greedy_fit, opened
 from plisse.solve.principal.joint import joint_fit
 from plisse.solve.principal.numbers import PrincipalNumbers, start, with_terms
@@ -20,6 +21,8 @@ def progressive_fit(target: Target, terms: int, stiffness: float, windows: tuple
         if not target.closed:
             numbers = greedy_fit(part, opened(part, numbers) if reach == 2 else numbers, known)
         numbers, _ = joint_fit(part, numbers, _ITERATIONS, stiffness)
+        if is_lost(part, numbers):
+            return numbers
         known = frozenset(range(part.first + 1, part.last))
     for window in windows:
         whole = target.within(0, last, window)
