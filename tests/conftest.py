@@ -11,7 +11,7 @@ from plisse.structure.topology import Polyline
 
 def alternating_cones(creases: int, columns: int, *, angle: float, step: float = 6.0, height: float = 8.0,
                       closed: bool = False) -> PleatedStructure:
-    """Circles of falling radius at alternating heights: cones of equal slope, an exact principal structure."""
+    """Circles of falling radius at alternating heights: cones of equal slope, exact and principal."""
     radius = 100.0 - step * np.arange(creases)
     turn = np.linspace(0, angle, columns, endpoint=not closed)
     level = height * (np.arange(creases) % 2)

@@ -8,9 +8,9 @@ import pytest
 from plisse.cli.app import main
 from plisse.cli.make import FILES, write_files
 from plisse.cli.shipped import description, shipped_names
-from plisse.recipe import Arc, Design, Pattern
 from plisse.io.fold import read_fold, write_fold
 from plisse.io.obj import read_obj, write_obj
+from plisse.recipe import Arc, Design, Pattern
 from plisse.result import Report, Result
 
 DESIGN = """# a quarter of alternating cones
@@ -64,7 +64,8 @@ def test_two_runs_give_the_same_bytes_apart_from_times(design_file, tmp_path, ca
 
 
 def test_json_prints_the_report_that_is_written(design_file, tmp_path, capsys):
-    assert main(["make", str(design_file), "-o", str(tmp_path / "out"), "--json", "--set", "units=\"cm\""]) == 0
+    out = str(tmp_path / "out")
+    assert main(["make", str(design_file), "-o", out, "--json", "--set", "units=cm"]) == 0
     printed = json.loads(capsys.readouterr().out)
     assert printed == json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))
     assert printed["units"] == "cm" and printed["design"]["units"] == "cm"
@@ -103,7 +104,8 @@ def test_bad_input_is_one_line_exit_1_and_nothing_written(design_file, monkeypat
     assert [file.name for file in design_file.parent.iterdir()] == ["fan.toml"]
 
 
-@pytest.mark.parametrize("arguments", [["make"], ["make", "a", "--colour"], ["check"], ["fold"], ["gallery", "a", "b"]])
+@pytest.mark.parametrize("arguments", [["make"], ["make", "a", "--colour"], ["check"], ["fold"],
+                                       ["gallery", "a", "b"]])
 def test_wrong_usage_is_exit_2_and_at_most_two_lines(capsys, arguments):
     assert main(arguments) == 2
     captured = capsys.readouterr()
@@ -181,7 +183,7 @@ def test_similar_names_are_suggested(capsys):
 
 def test_the_command_answers_help_without_loading_numpy():
     code = "import sys; from plisse.cli import main; main(['--help']); sys.exit('numpy' in sys.modules)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, encoding="utf-8", timeout=60)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", timeout=60)
     assert done.returncode == 0 and "gallery" in done.stdout
 
 

@@ -83,8 +83,8 @@ def test_lines_behind_paper_are_hidden():
     wall = PleatedStructure(grid(2, 2), np.array([[0, 0, 0], [40, 0, 0], [0, 40, 0], [40, 40, 0]], float))
     picture = render(wall, Camera(np.eye(3)), 4.0)
     across = np.array([[-20.0, 20, 0], [60, 20, 0]])
-    hidden = picture.visible(across - [0, 0, 10])
-    shown = picture.visible(across + [0, 0, 10])
+    hidden = picture.visible(across - np.array([0, 0, 10]))
+    shown = picture.visible(across + np.array([0, 0, 10]))
     length = lambda parts: sum(np.hypot(*(part[-1] - part[0])) for part in parts)  # noqa: E731
     assert length(shown) == pytest.approx(80 * 4, rel=0.02)
     assert length(hidden) < 0.6 * length(shown)

@@ -43,11 +43,11 @@ def test_a_set_of_files_replaces_the_earlier_set_and_spares_the_rest(tmp_path):
 
 def test_an_unwritable_place_is_one_sentence(tmp_path):
     (tmp_path / "file").write_text("in the way")
-    with pytest.raises(PlisseError, match="cannot be written.*it is a file"), written_together(tmp_path / "file"):
+    with pytest.raises(PlisseError, match=r"written \(it is a file"), written_together(tmp_path / "file"):
         pass
     with pytest.raises(PlisseError, match="choose another place"):
         require_writable(tmp_path / "file" / "below")
-    with pytest.raises(PlisseError, match="cannot be written"), written(tmp_path / "missing" / "a.txt") as aside:
+    with pytest.raises(PlisseError, match="be written"), written(tmp_path / "missing" / "a.txt") as aside:
         aside.write_text("x")
 
 

@@ -98,7 +98,8 @@ def test_files_of_others_are_labelled_by_their_mountains_and_valleys(cones, tmp_
     document["faces_vertices"][3].reverse()
     (tmp_path / "foreign.fold").write_text(json.dumps(document))
     back = read_fold(tmp_path / "foreign.fold")
-    creases = {frozenset(pair) for pair in cones.topology.edges.vertices[cones.topology.edges.is_crease].tolist()}
+    edges = cones.topology.edges
+    creases = {frozenset(pair) for pair in edges.vertices[edges.is_crease].tolist()}
     found = back.topology.edges
     assert {frozenset(pair) for pair in found.vertices[found.is_crease].tolist()} == creases
 
@@ -108,7 +109,7 @@ def test_files_of_others_are_labelled_by_their_mountains_and_valleys(cones, tmp_
     ("[1, 2]", "not an object"),
     ("{}", "no faces_vertices"),
     ('{"faces_vertices": [[0, 1, 2]], "vertices_coords": [[0, 0], [1, 0], [1, 1]]}', "face 0 has 3 edges"),
-    ('{"faces_vertices": [[0, 1, 2, 9]], "vertices_coords": [[0, 0], [1, 0], [1, 1]]}', "does not name vertices"),
+    ('{"faces_vertices": [[0, 1, 2, 9]], "vertices_coords": [[0, 0], [1, 0], [1, 1]]}', "does not name"),
     ('{"faces_vertices": [[0, 1, 2, 3]], "vertices_coords": [[0, 0], [1, 0], [1, 1], ["x", 1]]}', "numbers"),
     ('{"faces_vertices": [[0, 1, 2, 3]], "vertices_coords": [[0, 0], [1, 0], [1, 1], [NaN, 1]]}', "finite"),
 ])

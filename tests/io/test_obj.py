@@ -1,3 +1,5 @@
+from itertools import pairwise
+
 import numpy as np
 import pytest
 import trimesh
@@ -47,7 +49,7 @@ def test_every_crease_is_a_polyline_of_the_file(structure, tmp_path):
     lines = [list(map(int, line.split()[1:])) for line in (tmp_path / "s.obj").read_text().splitlines()
              if line.startswith("l ")]
     assert len(lines) == len(structure.topology.creases)
-    edges = {frozenset((a - 1, b - 1)) for line in lines for a, b in zip(line, line[1:], strict=False)}
+    edges = {frozenset((a - 1, b - 1)) for line in lines for a, b in pairwise(line)}
     assert edges == crease_edges(structure.topology)
 
 

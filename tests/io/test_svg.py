@@ -24,7 +24,7 @@ def length_of(group):
 
 
 @pytest.mark.parametrize(("units", "factor"), [("mm", 1.0), ("in", 25.4)])
-def test_lengths_in_the_file_are_those_of_the_development_in_millimetres(closed_cones, tmp_path, units, factor):
+def test_lengths_are_those_of_the_development_in_millimetres(closed_cones, tmp_path, units, factor):
     write_svg(crease_pattern(closed_cones, units), tmp_path / "d.svg")
     _, groups = layers_of(tmp_path / "d.svg")
     edges = closed_cones.cut.topology.edges
@@ -34,7 +34,8 @@ def test_lengths_in_the_file_are_those_of_the_development_in_millimetres(closed_
     on_paper = length_of(groups["mountain"]) + length_of(groups["valley"])
     assert on_paper == pytest.approx(lengths[folded].sum(), abs=1e-3)
     assert length_of(groups["boundary"]) == pytest.approx(lengths[edges.is_boundary].sum(), abs=1e-3)
-    assert length_of(groups["ruling"]) == pytest.approx(lengths[~edges.is_crease & ~edges.is_boundary].sum(), abs=1e-3)
+    rulings = ~edges.is_crease & ~edges.is_boundary
+    assert length_of(groups["ruling"]) == pytest.approx(lengths[rulings].sum(), abs=1e-3)
 
 
 def test_one_user_unit_is_one_millimetre_and_everything_lies_on_the_page(cones, tmp_path):
@@ -51,7 +52,7 @@ def test_layers_carry_the_colours_that_origami_simulator_reads(cones, tmp_path):
     write_svg(crease_pattern(cones), tmp_path / "d.svg")
     _, groups = layers_of(tmp_path / "d.svg")
     assert list(groups) == ["ruling", "boundary", "mountain", "valley"]
-    assert STROKES["mountain"] == "#ff0000" and STROKES["valley"] == "#0000ff" and STROKES["boundary"] == "#000000"
+    assert [STROKES[name] for name in ("mountain", "valley", "boundary")] == ["#ff0000", "#0000ff", "#000000"]
     for name, group in groups.items():
         assert group.get(f"{{{INKSCAPE}}}groupmode") == "layer"
         assert {path.get("stroke") for path in group} == {STROKES[name]}

@@ -1,6 +1,7 @@
 """The command line as a whole: its commands and what their exit codes mean.
 
-0 exact · 1 bad input, one line on stderr · 2 wrong usage · 3 finished, but not exact or not regular · 130 interrupted.
+0 exact · 1 bad input, one line on stderr · 2 wrong usage · 3 finished, but not exact or not regular · 130
+interrupted.
 """
 
 import sys

@@ -13,7 +13,7 @@ from rich.text import Text
 
 if TYPE_CHECKING:
     from plisse.cli.findings import Findings
-    from plisse.result import Report
+    from plisse.result import Interval, Report
 
 __all__ = ["list_designs", "progress", "show_findings", "summarise"]
 
@@ -45,7 +45,7 @@ def summarise(report: Report, directory: Path, *, title: str) -> None:
     if report.min_sector_angle_deg is not None:
         rows.append(("smallest sector angle", f"{report.min_sector_angle_deg:.1f}°"))
     if report.opening_angle_deg is not None:
-        rows.append(("opening angles", f"{report.opening_angle_deg.min:.1f}° to {report.opening_angle_deg.max:.1f}°"))
+        rows.append(("opening angles", _range(report.opening_angle_deg)))
     if report.development is not None:
         width, height = report.development.size_mm
         note = ", overlaps itself" if report.development.overlaps else ""
@@ -63,7 +63,7 @@ def show_findings(found: Findings, *, title: str) -> None:
         rows.append((name.replace("_", " "), f"max {spread.max:.1e}   mean {spread.mean:.1e}"))
     rows.append(("principal (folds flat)", "yes" if found.principal else "no"))
     rows.append(("smallest sector angle", f"{found.min_sector_angle_deg:.1f}°"))
-    rows.append(("opening angles", f"{found.opening_angle_deg.min:.1f}° to {found.opening_angle_deg.max:.1f}°"))
+    rows.append(("opening angles", _range(found.opening_angle_deg)))
     rows.append(("faces folded over", str(found.inverted_faces)))
     rows.append(("self-intersections", str(found.self_intersections)))
     _panel(title, found.status, rows, found.reasons)
@@ -75,6 +75,10 @@ def list_designs(descriptions: dict[str, str]) -> None:
     for name, text in descriptions.items():
         table.add_row(Text(name, style="bold"), Text(text))
     Console().print(table)
+
+
+def _range(interval: Interval) -> str:
+    return f"{interval.min:.1f}° to {interval.max:.1f}°"
 
 
 def _panel(title: str, status: str, rows: list[tuple[str, str]], reasons: list[str]) -> None:

@@ -21,7 +21,7 @@ __all__ = ["Findings", "findings", "findings_json", "read_structure"]
 
 
 class Findings(msgspec.Struct, frozen=True, kw_only=True):
-    """Numbers named as in report.json; `principal` is whether the creases would fold flat (conical, 1-DOF)."""
+    """Numbers named as in report.json; `principal` is whether the structure folds flat with one freedom."""
 
     status: str
     reasons: list[str]
@@ -75,7 +75,7 @@ def _reasons(found: Findings) -> list[str]:
     low, high = map(degrees, OPENING_RANGE)
     opening = found.opening_angle_deg
     sentences = {
-        f"faces are not planar: the defect reaches {planarity:.1e}, {EXACT:g} counts as exact": planarity <= EXACT,
+        f"faces are not planar: the defect reaches {planarity:.1e} (exact: {EXACT:g})": planarity <= EXACT,
         f"the sheet does not lie flat: angle sums miss 360° by up to {angle:.1e} radians": angle <= EXACT,
         f"faces are slivers: the smallest angle is {sector:.1f}°": sector >= degrees(MIN_SECTOR),
         f"creases are folded shut: the smallest opening angle is {opening.min:.1f}°": opening.min > low,

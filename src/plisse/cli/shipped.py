@@ -14,7 +14,11 @@ def shipped_names() -> list[str]:
     """Names of all shipped designs, numbers in them in their natural order."""
     folder = files("plisse") / "gallery"
     names = [entry.name[:-5] for entry in folder.iterdir() if entry.name.endswith(".toml")]
-    return sorted(names, key=lambda name: [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", name)])
+    return sorted(names, key=_natural)
+
+
+def _natural(name: str) -> list[int | str]:
+    return [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", name)]
 
 
 def shipped_design(name: str) -> Path:
@@ -38,7 +42,7 @@ def find_design(argument: str) -> Path:
     if path.is_file():
         return path
     if path.is_dir():
-        raise InvalidDesign(f"{argument} is a directory; give a design file or a name that `plisse gallery` lists")
+        raise InvalidDesign(f"{argument} is a directory; give a design file or a name from `plisse gallery`")
     if argument in shipped_names():
         return shipped_design(argument)
     raise InvalidDesign(f"there is no file {argument} and no design of that name in the gallery; "

@@ -72,7 +72,7 @@ def _candidates(vertices: np.ndarray) -> list[Camera]:
 
 
 def _score(camera: Camera, points: np.ndarray, normals: np.ndarray, areas: np.ndarray) -> float:
-    """Area as seen, share of the paper seen and contrast of its light; a little for wide pictures and the front."""
+    """Area as seen times share of the paper seen; more for contrast, the front side and wide pictures."""
     seen, facing = camera.project(points), np.abs(camera.project(normals)[:, 2])
     cell = 1.6 * np.sqrt(areas.mean())
     index = np.floor((seen[:, :2] - seen[:, :2].min(axis=0)) / cell).astype(np.int64)
@@ -89,5 +89,6 @@ def _score(camera: Camera, points: np.ndarray, normals: np.ndarray, areas: np.nd
     width, height = np.ptp(seen[:, :2], axis=0)
     shown = visible.sum() / areas.sum()
     share = (areas * in_front * (facing > 0.12)).sum() / areas.sum()
-    front = visible[camera.project(normals)[:, 2] > 0].sum() / (visible.sum() + 1e-300)
-    return float((1 + 0.25 * front) * shown * share * np.sqrt(0.05 + contrast) * (width / (width + height)) ** 0.25)
+    bright = visible[camera.project(normals)[:, 2] > 0].sum() / (visible.sum() + 1e-300)
+    bonus = (1 + 0.25 * bright) * np.sqrt(0.05 + contrast) * (width / (width + height)) ** 0.25
+    return float(shown * share * bonus)

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-__all__ = ["BACKGROUND", "BACK_OF_PAPER", "CAPTION", "EDGE", "INK", "MOUNTAIN", "PAPER", "RULING", "SHADE", "VALLEY",
-           "quality", "rgb"]
+__all__ = ["BACKGROUND", "BACK_OF_PAPER", "CAPTION", "EDGE", "INK", "MOUNTAIN", "PAPER", "RULING", "SHADE",
+           "VALLEY", "quality", "rgb"]
 
 BACKGROUND = "#e6e1d8"
 PAPER = "#fdf6e7"

@@ -53,8 +53,9 @@ class Drawing:
         return next((layer for layer in self.layers if layer.name == name), Layer(name, ()))
 
 
-def crease_pattern(structure: PleatedStructure, units: str = "mm", *, title: str = "", margin: float = 5.0) -> Drawing:
-    """The development at 1:1: layers ruling, boundary, mountain, valley, and flat for creases that do not fold.
+def crease_pattern(structure: PleatedStructure, units: str = "mm", *, title: str = "",
+                   margin: float = 5.0) -> Drawing:
+    """The development at 1:1: layers ruling, boundary, mountain, valley, and flat where creases do not fold.
 
     `margin` millimetres of paper surround it. Raises InvalidStructure when there is no development.
     """

@@ -1,4 +1,4 @@
-"""Where the two pictures of a preview go: as large as one scale allows, the sheet turned to nestle beside the shape."""
+"""Where the two pictures of a preview go: as large as fits, the sheet turned to nestle beside the shape."""
 
 from dataclasses import dataclass
 
@@ -42,8 +42,9 @@ def turned(points: np.ndarray, angle: float) -> np.ndarray:
 def arrange(folded: np.ndarray, flat: np.ndarray | None, low: np.ndarray, high: np.ndarray) -> Layout:
     """Layout of point clouds (N, 2) inside the box from `low` to `high` in pixels.
 
-    The sheet stands to the right; the two may reach into each other's bays but keep a gap. A sheet much larger than
-    what it folds into is reduced by a whole number, so that the folded shape stays the picture's hero.
+    The sheet stands to the right; the two may reach into each other's bays but keep a gap. A sheet much
+    larger than what it folds into is reduced by a whole number, so that the folded shape stays the picture's
+    hero.
     """
     room, size = high - low, np.ptp(folded, axis=0)
     if flat is None:
@@ -67,12 +68,12 @@ def arrange(folded: np.ndarray, flat: np.ndarray | None, low: np.ndarray, high: 
     scale = float((room / total).min())
     corner = low + (room - total * scale) / 2
     bottom = -min(0.0, lift)
-    return Layout(scale, reduction, corner + np.array([0, bottom + lift]) * scale, corner + np.array([across, bottom]) * scale,
-                  float(turn))
+    shape, sheet = np.array([0, bottom + lift]), np.array([across, bottom])
+    return Layout(scale, reduction, corner + shape * scale, corner + sheet * scale, float(turn))
 
 
 def _beside(folded: np.ndarray, sheet: np.ndarray, lift: float) -> float:
-    """How far right of the folded picture's left edge the sheet's left edge must be; `lift` raises the folded one."""
+    """Distance from the left edge of the folded picture, raised by `lift`, to that of the sheet."""
     left = folded - folded.min(axis=0) + [0, lift]
     right = sheet - sheet.min(axis=0)
     gap = GAP * (np.ptp(folded, axis=0).max() + np.ptp(sheet, axis=0).max())

@@ -25,10 +25,10 @@ DOTS_PER_INCH = 200
 
 def write_preview(subject: Result | PleatedStructure, path: str | Path, *, title: str | None = None,
                   units: str = "mm") -> None:
-    """Write a PNG of the folded structure and, where there is one, its development; equal subjects, equal bytes.
+    """Write a PNG of the folded structure and its development, if any; equal subjects give equal bytes.
 
-    `units` matters for the size in the caption when the subject is a structure; a result knows its own. Raises
-    ValueError for a result without a structure.
+    `units` matters for the size in the caption when the subject is a structure; a result knows its own.
+    Raises ValueError for a result without a structure.
     """
     structure = subject if isinstance(subject, PleatedStructure) else subject.structure
     if structure is None:
@@ -37,7 +37,8 @@ def write_preview(subject: Result | PleatedStructure, path: str | Path, *, title
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(SIZE[0] / DOTS_PER_INCH, SIZE[1] / DOTS_PER_INCH), dpi=DOTS_PER_INCH, facecolor=colours.BACKGROUND)
+    inches = SIZE[0] / DOTS_PER_INCH, SIZE[1] / DOTS_PER_INCH
+    figure = Figure(figsize=inches, dpi=DOTS_PER_INCH, facecolor=colours.BACKGROUND)
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set_axis_off()
@@ -51,8 +52,9 @@ def write_preview(subject: Result | PleatedStructure, path: str | Path, *, title
 def _compose(axes, structure: PleatedStructure, units: str) -> Layout:
     camera = best_view(structure)
     sheet = None if structure.development is None else _sheet(structure, units)
-    outline = None if sheet is None else np.concatenate([dense(line, max(1, 4000 // len(line))) for line in sheet["boundary"]])
-    layout = arrange(_cloud(structure, camera), outline, np.array([MARGIN, CAPTION_BAND]), np.array(SIZE) - MARGIN)
+    loops = [] if sheet is None else [dense(line, max(1, 4000 // len(line))) for line in sheet["boundary"]]
+    layout = arrange(_cloud(structure, camera), np.concatenate(loops) if loops else None,
+                     np.array([MARGIN, CAPTION_BAND]), np.array(SIZE) - MARGIN)
     picture = render(structure, camera, layout.scale, RIM)
     placed = {} if sheet is None else _placed(sheet, layout)
     _draw_ground(axes, picture, placed.get("boundary", []), layout)
@@ -81,7 +83,8 @@ def _line_width(structure: PleatedStructure, scale: float, least: float = 0.16) 
 def _sheet(structure: PleatedStructure, units: str) -> dict[str, list[np.ndarray]]:
     """Polylines (N, 2) of the flat pattern in model units by layer."""
     drawing = crease_pattern(structure, units)
-    return {layer.name: [line.stroke / MILLIMETRES[units] for line in layer.lines] for layer in drawing.layers}
+    unit = MILLIMETRES[units]
+    return {layer.name: [line.stroke / unit for line in layer.lines] for layer in drawing.layers}
 
 
 def _placed(sheet: dict[str, list[np.ndarray]], layout: Layout) -> dict[str, list[np.ndarray]]:
@@ -109,7 +112,8 @@ def _draw_ground(axes, picture: Rendering, loops: list[np.ndarray], layout: Layo
     for loop in loops:
         lies ^= Outline(loop[:: 1 + len(loop) // 600]).contains_points(centres).reshape(height, width)
     shadow += 0.3 * gaussian_filter(shift(lies.astype(float), (-1, 1), order=0), 2)
-    light = (0.94 + 0.06 * glow)[..., None] * (1 - np.clip(shadow, 0, 1)[..., None] * (1 - colours.rgb(colours.SHADE)))
+    dark = np.clip(shadow, 0, 1)[..., None] * (1 - colours.rgb(colours.SHADE))
+    light = (0.94 + 0.06 * glow)[..., None] * (1 - dark)
     axes.imshow(np.clip(colours.rgb(colours.BACKGROUND) * light, 0, 1), extent=(0, SIZE[0], 0, SIZE[1]),
                 origin="lower", interpolation="bilinear", aspect="auto", zorder=0)
 
@@ -142,7 +146,8 @@ def _draw_sheet(axes, placed: dict[str, list[np.ndarray]], width: float) -> None
     from matplotlib.path import Path as Outline
 
     outline = Outline.make_compound_path(*[Outline(loop, closed=True) for loop in placed["boundary"]])
-    axes.add_patch(PathPatch(outline, facecolor=colours.PAPER, edgecolor=colours.EDGE, linewidth=0.45, zorder=1))
+    paper = PathPatch(outline, facecolor=colours.PAPER, edgecolor=colours.EDGE, linewidth=0.45, zorder=1)
+    axes.add_patch(paper)
     _lines(axes, _sparse(placed["ruling"]), colours.RULING, 0.2, 0.35, 2)
     _lines(axes, placed["valley"], colours.VALLEY, width, 1.0, 3)
     _lines(axes, placed["mountain"], colours.MOUNTAIN, width, 1.0, 3)
@@ -166,11 +171,13 @@ def _lines(axes, lines: list[np.ndarray], colour: str, width: float, alpha: floa
 
 def _caption(axes, structure: PleatedStructure, units: str, title: str | None, reduction: int) -> None:
     topology, vertices = structure.topology, structure.vertices
-    facts = [f"{topology.vertex_count:,} vertices", f"planarity {planarity_defect(topology, vertices).max():.0e}",
+    facts = [f"{topology.vertex_count:,} vertices",
+             f"planarity {planarity_defect(topology, vertices).max():.0e}",
              f"angle defect {np.abs(angle_defect(topology, vertices)).max():.0e}"]
     if structure.development is not None:
         width, height = np.ptp(structure.development, axis=0)
         drawn = f", drawn 1 : {reduction} to the fold" if reduction > 1 else ""
         facts.append(f"sheet {width:.3g} × {height:.3g} {units}{drawn}")
     axes.text(MARGIN, 66, title or "", fontsize=11, color=colours.INK, va="center")
-    axes.text(SIZE[0] - MARGIN, 66, "   ·   ".join(facts), fontsize=7, color=colours.CAPTION, va="center", ha="right")
+    axes.text(SIZE[0] - MARGIN, 66, "   ·   ".join(facts), fontsize=7, color=colours.CAPTION, va="center",
+              ha="right")

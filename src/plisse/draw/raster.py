@@ -11,7 +11,7 @@ CHUNK = 3_000_000
 
 @dataclass(frozen=True, eq=False)
 class DepthBuffer:
-    """Per pixel (H, W), row 0 at the bottom: `depth` towards the viewer (−inf outside) and `triangle` (−1 outside)."""
+    """Per pixel (H, W) from the bottom row up: `depth` to the viewer and `triangle`; −inf and −1 outside."""
 
     depth: np.ndarray
     triangle: np.ndarray
@@ -44,7 +44,7 @@ def rasterise(points: np.ndarray, width: int, height: int) -> DepthBuffer:
 
 
 def depth_planes(points: np.ndarray, values: np.ndarray | None = None) -> np.ndarray:
-    """Coefficients (T, 3) of value = k0 + k1 x + k2 y over triangles; the value at corners is z unless given (T, 3)."""
+    """Coefficients (T, 3) of value = k0 + k1 x + k2 y over triangles, from values (T, 3) at corners, or z."""
     values = points[..., 2] if values is None else values
     a, b, c = points[:, 0, :2], points[:, 1, :2], points[:, 2, :2]
     ab, ac = b - a, c - a
@@ -56,7 +56,8 @@ def depth_planes(points: np.ndarray, values: np.ndarray | None = None) -> np.nda
     return np.stack([values[:, 0] - kx * a[:, 0] - ky * a[:, 1], kx, ky], axis=1)
 
 
-def _spans(points: np.ndarray, width: int, height: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def _spans(points: np.ndarray, width: int,
+           height: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Triangle, row, first column and number of columns of every horizontal run of covered pixel centres."""
     y = points[..., 1]
     low = np.clip(np.ceil(y.min(axis=1) - 0.5), 0, height).astype(np.int64)

@@ -1,4 +1,4 @@
-"""A folded structure as an image of paper: hidden surfaces, light, shadows and the visible parts of its lines."""
+"""A folded structure as an image of paper: hidden surfaces, light, and the visible parts of lines."""
 
 from dataclasses import dataclass
 
@@ -22,7 +22,8 @@ OVERSAMPLE = 2
 class Rendering:
     """`image` (H, W, 4) in 0…1, row 0 at the bottom, and what is needed to hide lines behind it.
 
-    `scale` is pixels per model unit and `origin` (3,) the point of the camera's frame at the lower left corner.
+    `scale` is pixels per model unit and `origin` (3,) the point of the camera's frame at the lower left
+    corner.
     """
 
     image: np.ndarray
@@ -76,12 +77,12 @@ def _light(buffer: DepthBuffer, pixels: np.ndarray, normals: np.ndarray) -> tupl
     """How much sun and sky reach the paper in 0…1, one value per block of pixels, softened a little."""
     depth, owner = _coarse(buffer)
     row, column = np.nonzero(owner >= 0)
-    points = np.stack([column * OVERSAMPLE + 0.5, row * OVERSAMPLE + 0.5, depth[row, column]]).astype(np.float32)
+    points = np.stack([column * OVERSAMPLE + 0.5, row * OVERSAMPLE + 0.5, depth[row, column]])
     sun = np.zeros(depth.shape, np.float32)
-    sun[row, column] = sunlight(pixels, points)
-    towards = np.where((owner >= 0)[..., None], normals[::OVERSAMPLE, ::OVERSAMPLE], [0, 0, 1]).astype(np.float32)
-    sky = occlusion(depth / OVERSAMPLE, towards, radius=0.09 * max(depth.shape))
+    sun[row, column] = sunlight(pixels, points.astype(np.float32))
     mask = owner >= 0
+    towards = np.where(mask[..., None], normals[::OVERSAMPLE, ::OVERSAMPLE], np.array([0, 0, 1], np.float32))
+    sky = occlusion(depth / OVERSAMPLE, towards, radius=0.09 * max(depth.shape))
     return soft(sun, mask, 1.2), soft(sky, mask, 1.2)
 
 
@@ -157,5 +158,5 @@ def _without_specks(seen: np.ndarray, size: int) -> np.ndarray:
 
 def _runs(points: np.ndarray, seen: np.ndarray) -> list[np.ndarray]:
     cuts = np.flatnonzero(np.diff(seen)) + 1
-    masks = np.split(seen, cuts)
-    return [part for part, mask in zip(np.split(points, cuts), masks, strict=True) if mask[0] and len(part) > 2]
+    parts = zip(np.split(points, cuts), np.split(seen, cuts), strict=True)
+    return [part for part, mask in parts if mask[0] and len(part) > 2]

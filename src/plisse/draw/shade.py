@@ -16,8 +16,8 @@ BLUR = 0.07
 def paper_colour(normals: np.ndarray, front: np.ndarray, sun: np.ndarray, sky: np.ndarray) -> np.ndarray:
     """Colours (N, 3) of points with unit normals (N, 3) towards the viewer.
 
-    `front` says which side of the paper is seen, `sun` and `sky` in 0…1 how much of each reaches the point. Paper
-    lets some sun through and folds are lit by their own walls, so shadows stay warm and never black.
+    `front` says which side of the paper is seen, `sun` and `sky` in 0…1 how much of each reaches the point.
+    Paper lets some sun through and folds are lit by their own walls, so shadows stay warm and never black.
     """
     facing = normals @ SUN.astype(np.float32)
     light = 0.56 * np.maximum(facing, 0) * sun + 0.12 * np.maximum(-facing, 0)
@@ -32,8 +32,9 @@ _PAPERS = np.stack([rgb(BACK_OF_PAPER), rgb(PAPER)])
 _TONES = ((_PAPERS * rgb(SHADE)).astype(np.float32), (_PAPERS * (1 - rgb(SHADE))).astype(np.float32))
 
 
-def occlusion(depth: np.ndarray, normals: np.ndarray, radius: float, directions: int = 8, steps: int = 5) -> np.ndarray:
-    """How open the sky is (H, W) in 0…1 over a depth map in pixels: horizons in some directions out to `radius`."""
+def occlusion(depth: np.ndarray, normals: np.ndarray, radius: float, directions: int = 8,
+              steps: int = 5) -> np.ndarray:
+    """How open the sky is (H, W) in 0…1 over a depth map in pixels, by horizons within `radius`."""
     safe = np.where(np.isfinite(depth), depth, -1e6).astype(np.float32)
     up = np.maximum(normals[..., 2], 0.15)
     lost = np.zeros_like(safe)
@@ -82,7 +83,7 @@ def sunlight(triangles: np.ndarray, points: np.ndarray, size: int = 800) -> np.n
 
 
 def _lit(triangles: np.ndarray, points: np.ndarray, size: int) -> np.ndarray:
-    """1 where nothing stands between points (3, N) and the sun, 0 where something does, both seen from the sun."""
+    """1 where nothing stands between points (3, N) and the sun, else 0; everything as seen from the sun."""
     low = triangles.min(axis=(0, 1))
     scale = size / (np.ptp(triangles.reshape(-1, 3)[:, :2], axis=0).max() * 1.001)
     depth = rasterise((triangles - low) * scale, size, size).depth

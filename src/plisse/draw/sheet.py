@@ -12,7 +12,8 @@ __all__ = ["front_up"]
 def front_up(structure: PleatedStructure) -> np.ndarray:
     """The development (V', 2) in model units, mirrored where needed so that faces run counterclockwise.
 
-    Then mountains and valleys are as seen by the reader. Raises InvalidStructure when there is no development.
+    Then mountains and valleys are as seen by the reader. Raises InvalidStructure when there is no
+    development.
     """
     flat = structure.development
     if flat is None:

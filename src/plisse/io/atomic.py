@@ -14,7 +14,7 @@ __all__ = ["require_writable", "written", "written_together"]
 
 @contextmanager
 def written(path: str | Path) -> Iterator[Path]:
-    """A path to write to, which becomes `path` at the end; after an exception nothing is left and nothing changed.
+    """A path to write to, which becomes `path` at the end; after an exception nothing has changed.
 
     Raises PlisseError where the place cannot be written.
     """
@@ -34,9 +34,9 @@ def written(path: str | Path) -> Iterator[Path]:
 def written_together(directory: str | Path, owned: Iterable[str] = ()) -> Iterator[Path]:
     """A directory to write files into, which are moved into `directory` together at the end.
 
-    `owned` names files that belong to the set: those of an earlier run that this one does not write are removed,
-    so that no old file stands beside a new report. After an exception or Ctrl-C everything is as it was before.
-    Raises PlisseError where the place cannot be written.
+    `owned` names files that belong to the set: those of an earlier run that this one does not write are
+    removed, so that no old file stands beside a new report. After an exception or Ctrl-C everything is as it
+    was before. Raises PlisseError where the place cannot be written.
     """
     directory = Path(directory)
     with _sentence(directory), _staging(directory) as stage:
@@ -45,7 +45,7 @@ def written_together(directory: str | Path, owned: Iterable[str] = ()) -> Iterat
 
 
 def require_writable(directory: str | Path) -> None:
-    """Nothing; raises PlisseError where `directory` cannot be written, before hours have gone into its contents."""
+    """Nothing; raises PlisseError where `directory` cannot be written, before work has gone into it."""
     directory = Path(directory)
     with _sentence(directory), _staging(directory) as stage:
         stage.joinpath("probe").touch()
@@ -55,7 +55,7 @@ def require_writable(directory: str | Path) -> None:
 
 @contextmanager
 def _staging(directory: Path) -> Iterator[Path]:
-    """An empty directory beside `directory`; it and the parents made for it vanish again where they stay empty."""
+    """An empty directory beside `directory`; it and the parents made for it vanish where they stay empty."""
     if directory.exists() and not directory.is_dir():
         raise NotADirectoryError(None, "it is a file")
     parents = [parent for parent in directory.absolute().parents if not parent.exists()]

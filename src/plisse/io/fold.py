@@ -1,9 +1,9 @@
 """FOLD 1.2: the crease pattern as key frame and the folded form as second frame, written and read.
 
-Creases are M or V with their fold angle. Rulings are F with fold angle 0, as FOLD wants unfolded edges, although the
-discrete paper bends there a little: their true angles stand in `edges_plisse:rulingAngle`. `edges_plisse:kind` says
-which edges lie on creases (on the boundary too), and `vertices_plisse:source` which vertices were one before a closed
-structure was cut open.
+Creases are M or V with their fold angle. Rulings are F with fold angle 0, as FOLD wants unfolded edges,
+although the discrete paper bends there a little: their true angles stand in `edges_plisse:rulingAngle`.
+`edges_plisse:kind` says which edges lie on creases (on the boundary too), and `vertices_plisse:source` which
+vertices were one before a closed structure was cut open.
 """
 
 import json
@@ -78,7 +78,8 @@ def _folds(folded: PleatedStructure) -> tuple[np.ndarray, np.ndarray, np.ndarray
     degrees = np.degrees(fold_angles(folded.topology, folded.vertices))
     letters = assignments(folded.topology, folded.vertices)
     letters = np.where(edges.is_crease | edges.is_boundary, letters, "F")
-    return letters, np.where(np.isin(letters, ["M", "V"]), degrees, 0.0), np.where(edges.is_crease, 0.0, degrees)
+    folded_here = np.isin(letters, ["M", "V"])
+    return letters, np.where(folded_here, degrees, 0.0), np.where(edges.is_crease, 0.0, degrees)
 
 
 def _text(document: dict) -> bytes:
@@ -90,8 +91,8 @@ def _text(document: dict) -> bytes:
 def read_fold(path: str | Path) -> PleatedStructure:
     """The structure in a FOLD file, closed again along the cut; lengths in the file's unit.
 
-    In files of others the M and V edges tell the creases from the rulings; without a folded form the flat sheet
-    stands for it. Raises InvalidStructure for files that are no FOLD or no quads between creases.
+    In files of others the M and V edges tell the creases from the rulings; without a folded form the flat
+    sheet stands for it. Raises InvalidStructure for files that are no FOLD or no quads between creases.
     """
     path = Path(path)
     frames = _frames(_load(path))
@@ -113,7 +114,7 @@ def _welded(topology: Topology, vertices: np.ndarray, development: np.ndarray | 
             path: Path) -> PleatedStructure:
     used, first = np.unique(source, return_index=True)
     if source.shape != (len(vertices),) or not np.array_equal(used, np.arange(len(used))):
-        raise InvalidStructure(f"vertices_plisse:source in {path.name} does not name the vertices of a cut structure")
+        raise InvalidStructure(f"vertices_plisse:source in {path.name} does not describe a cut structure")
     closed = Topology(len(used), source[topology.quads], tuple(source[hub] for hub in topology.hubs))
     _ = closed.edges
     return PleatedStructure(closed, vertices[first], Cut(topology, source), development)
@@ -127,7 +128,7 @@ def _load(path: Path) -> dict:
     except OSError as error:
         raise InvalidStructure(f"{path} cannot be read ({error.strerror})") from None
     except (UnicodeDecodeError, ValueError, RecursionError):
-        raise InvalidStructure(f"{path.name} is not a FOLD file, because it does not hold valid JSON") from None
+        raise InvalidStructure(f"{path.name} is not a FOLD file: it does not hold valid JSON") from None
     if not isinstance(data, dict):
         raise InvalidStructure(f"{path.name} is not a FOLD file, because its JSON is not an object")
     return data
@@ -173,10 +174,12 @@ def _evidence(frame: dict):
     else:
         values = [EVIDENCE.get(letter, 0.0) if isinstance(letter, str) else 0.0
                   for letter in _list(frame, "edges_assignment")]
-    known = {frozenset(edge): value for edge, value in zip(edges, values, strict=False) if isinstance(edge, list)}
+    pairs = zip(edges, values, strict=False)
+    known = {frozenset(edge): value for edge, value in pairs if isinstance(edge, list)}
 
     def evidence(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-        return np.array([known.get(frozenset(edge), 0.0) for edge in zip(start.tolist(), end.tolist(), strict=True)])
+        ends = zip(start.tolist(), end.tolist(), strict=True)
+        return np.array([known.get(frozenset(edge), 0.0) for edge in ends])
 
     return evidence
 

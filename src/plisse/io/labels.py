@@ -1,7 +1,8 @@
 """Telling creases from rulings in meshes that do not say: one family of opposite edges against the other.
 
-In a quad, opposite edges are of one kind and neighbouring edges of different kinds; across an edge the kind is the
-same. So a connected mesh has two labellings only, and any evidence about a few edges decides between them.
+In a quad, opposite edges are of one kind and neighbouring edges of different kinds; across an edge the kind
+is the same. So a connected mesh has two labellings only, and any evidence about a few edges decides between
+them.
 """
 
 import numpy as np
@@ -15,7 +16,7 @@ __all__ = ["Corners", "labelled_topology", "oriented"]
 
 
 class Corners:
-    """Columns over all corners of polygons: `face`, `start` and `end` vertex of the edge, `odd` position or not."""
+    """Columns over all corners of polygons: `face`, `start` and `end` of the edge, `odd` position or not."""
 
     def __init__(self, faces: list[list[int]]):
         size = np.array([len(face) for face in faces])
@@ -27,15 +28,15 @@ class Corners:
         self.odd = position % 2
 
     def pairs(self) -> tuple[np.ndarray, np.ndarray]:
-        """The two corners at every inner edge, (N,) each; raises InvalidStructure where more than two meet."""
+        """The two corners (N,) and (N,) at inner edges; raises InvalidStructure where more than two meet."""
         low, high = np.minimum(self.start, self.end), np.maximum(self.start, self.end)
         key = low * (high.max() + 1) + high
         order = np.argsort(key, kind="stable")
         twins = np.flatnonzero(np.diff(key[order]) == 0)
         if (np.diff(twins) == 1).any():
             corner = order[twins[np.argmax(np.diff(twins) == 1)]]
-            raise InvalidStructure(f"more than two faces meet in the edge between vertices {self.start[corner]} and "
-                                   f"{self.end[corner]}; split the mesh there")
+            raise InvalidStructure(f"more than two faces meet in the edge from vertex {self.start[corner]} "
+                                   f"to {self.end[corner]}; split the mesh there")
         return order[twins], order[twins + 1]
 
 
@@ -50,16 +51,16 @@ def oriented(faces: list[list[int]]) -> list[list[int]]:
     if not against.any():
         return faces
     flip, _ = _two_colouring(len(faces), corners.face[first], corners.face[second], against,
-                             "the mesh is one-sided near face {}, so no side of the paper can be called the front")
+                             "the mesh is one-sided near face {}, so no side of it can be called the front")
     return [face[::-1] if turn else face for face, turn in zip(faces, flip, strict=True)]
 
 
 def labelled_topology(vertex_count: int, faces: list[list[int]], evidence) -> Topology:
     """Quads first edge on a crease, and hubs likewise, from polygons with an even number of edges.
 
-    `evidence(start, end)` gives for edges between vertices (C,), (C,) a number each: large on creases, small on
-    rulings. In each connected piece the family with the larger mean becomes the creases; equal means keep each first
-    face as it is. Raises InvalidStructure where faces are odd or no labelling exists.
+    `evidence(start, end)` gives for edges between vertices (C,), (C,) a number each: large on creases, small
+    on rulings. In each connected piece the family with the larger mean becomes the creases; equal means keep
+    each first face as it is. Raises InvalidStructure where faces are odd or no labelling exists.
     """
     _require_even(faces)
     faces = oriented(faces)
@@ -67,8 +68,8 @@ def labelled_topology(vertex_count: int, faces: list[list[int]], evidence) -> To
     first, second = corners.pairs()
     shifted, piece = _two_colouring(
         len(faces), corners.face[first], corners.face[second], corners.odd[first] != corners.odd[second],
-        "the edges of face {} cannot be told into creases and rulings, because an odd number of faces surrounds "
-        "a vertex nearby; give a mesh whose edges are two families of polylines")
+        "the edges of face {} cannot be told into creases and rulings, because an odd number of faces "
+        "surrounds a vertex nearby; give a mesh whose edges are two families of polylines")
     family = corners.odd ^ shifted[corners.face]
     mean = _mean_by_family(evidence(corners.start, corners.end), piece[corners.face], family)
     shifted = shifted ^ (mean[1] > mean[0])[piece]
@@ -91,8 +92,9 @@ def _two_colouring(count: int, first: np.ndarray, second: np.ndarray, differ: np
                    complaint: str) -> tuple[np.ndarray, np.ndarray]:
     """One bit per node, different across the links that `differ` and equal across the others, and its piece.
 
-    The first node of each piece gets 0. Works on the double cover: two copies of every node, crossed over where the
-    bits differ; where a node is joined to its own copy no bits exist and InvalidStructure carries the complaint.
+    The first node of each piece gets 0. Works on the double cover: two copies of every node, crossed over
+    where the bits differ; where a node is joined to its own copy no bits exist and InvalidStructure carries
+    the complaint.
     """
     differ = differ.astype(np.int64)
     starts = np.concatenate([2 * first, 2 * first + 1])
@@ -116,7 +118,7 @@ def _require_even(faces: list[list[int]]) -> None:
         raise InvalidStructure("the file has no faces; give a mesh of quads")
     for k, face in enumerate(faces):
         if len(face) % 2 or len(face) < 4:
-            raise InvalidStructure(f"face {k} has {len(face)} edges, but pleated structures consist of quads between "
-                                   "creases; give a quad mesh")
+            raise InvalidStructure(f"face {k} has {len(face)} edges, but pleated structures consist of quads "
+                                   "between creases; give a quad mesh")
         if len(set(face)) < len(face):
             raise InvalidStructure(f"face {k} uses a vertex twice; give proper quads")

@@ -36,8 +36,8 @@ def write_obj(structure: PleatedStructure, path: str | Path, *, title: str = "",
 def read_obj(path: str | Path) -> PleatedStructure:
     """The quad mesh in an OBJ file, its edges labelled; not developed.
 
-    Creases are the `l` polylines; without them the family of edges that folds more. Raises InvalidStructure when the
-    file is missing, not OBJ, or not made of quads.
+    Creases are the `l` polylines; without them the family of edges that folds more. Raises InvalidStructure
+    when the file is missing, not OBJ, or not made of quads.
     """
     path = Path(path)
     vertices, faces, lines = _parse(path)
@@ -45,7 +45,7 @@ def read_obj(path: str | Path) -> PleatedStructure:
         raise InvalidStructure(f"{path.name} has no faces (no lines that start with f); give a quad mesh")
     if not np.isfinite(vertices).all():
         bad = int(np.argmin(np.isfinite(vertices).all(axis=1)))
-        raise InvalidStructure(f"vertex {bad + 1} of {path.name} has a coordinate that is not a finite number")
+        raise InvalidStructure(f"vertex {bad + 1} of {path.name} has a coordinate that is not finite")
     evidence = _marked(lines) if lines else _folded(vertices, faces)
     return PleatedStructure(labelled_topology(len(vertices), faces, evidence), vertices)
 
@@ -60,9 +60,10 @@ def _parse(path: Path) -> tuple[np.ndarray, list[list[int]], list[list[int]]]:
             if keyword == "v":
                 vertices.append([float(fields[0]), float(fields[1]), float(fields[2])])
             elif keyword in ("f", "l"):
-                (faces if keyword == "f" else lines).append([_index(field, len(vertices)) for field in fields])
+                indices = [_index(field, len(vertices)) for field in fields]
+                (faces if keyword == "f" else lines).append(indices)
         except (ValueError, IndexError):
-            raise InvalidStructure(f"line {number} of {path.name} is not OBJ: {text.strip()[:60]!r}") from None
+            raise InvalidStructure(f"line {number} of {path.name} is no OBJ: {text.strip()[:40]!r}") from None
     for k, face in enumerate(faces):
         if not all(0 <= v < len(vertices) for v in face):
             raise InvalidStructure(f"face {k + 1} of {path.name} names a vertex outside 1 to {len(vertices)}")

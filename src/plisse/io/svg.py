@@ -1,8 +1,9 @@
 """SVG at 1:1 in millimetres, in layers for Inkscape and in the colours of Origami Simulator.
 
-Origami Simulator tells lines by their stroke: mountains #ff0000, valleys #0000ff, boundary #000000. Rulings are
-#ffff00, its "triangulation": lines along which a facet may bend, with no fold angle of their own; it uses the same
-colour in its own examples of curved pleats. Creases that do not fold are #ff00ff, its undriven hinges.
+Origami Simulator tells lines by their stroke: mountains #ff0000, valleys #0000ff, boundary #000000. Rulings
+are #ffff00, its "triangulation": lines along which a facet may bend, with no fold angle of their own; it uses
+the same colour in its own examples of curved pleats. Creases that do not fold are #ff00ff, its undriven
+hinges.
 """
 
 import xml.etree.ElementTree as ET
@@ -15,7 +16,8 @@ from plisse.io.atomic import written
 
 __all__ = ["STROKES", "write_svg"]
 
-STROKES = {"mountain": "#ff0000", "valley": "#0000ff", "boundary": "#000000", "ruling": "#ffff00", "flat": "#ff00ff"}
+STROKES = {"mountain": "#ff0000", "valley": "#0000ff", "boundary": "#000000", "ruling": "#ffff00",
+           "flat": "#ff00ff"}
 SVG = "http://www.w3.org/2000/svg"
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
 
@@ -43,17 +45,18 @@ def write_svg(drawing: Drawing, path: str | Path) -> None:
 def _group(layer: Layer, height: float, stroke_width: float) -> ET.Element:
     """A layer; the stroke stands on every path too, because Origami Simulator looks for it there."""
     group = ET.Element(f"{{{SVG}}}g", {
-        f"{{{INKSCAPE}}}groupmode": "layer", f"{{{INKSCAPE}}}label": layer.name, "id": layer.name, "fill": "none",
-        "stroke-linejoin": "round", "stroke-width": _number(stroke_width)})
+        f"{{{INKSCAPE}}}groupmode": "layer", f"{{{INKSCAPE}}}label": layer.name, "id": layer.name,
+        "fill": "none", "stroke-linejoin": "round", "stroke-width": _number(stroke_width)})
+    stroke = STROKES.get(layer.name, "#808080")
     for line in layer.lines:
-        ET.SubElement(group, f"{{{SVG}}}path",
-                      {"fill": "none", "stroke": STROKES.get(layer.name, "#808080"), "d": _path(line, height)})
+        ET.SubElement(group, f"{{{SVG}}}path", {"fill": "none", "stroke": stroke, "d": _path(line, height)})
     return group
 
 
 def _path(line: Line, height: float) -> str:
     points = np.column_stack([line.points[:, 0], height - line.points[:, 1]])
-    return "M" + " ".join(f"{_number(x)},{_number(y)}" for x, y in points.tolist()) + (" Z" if line.closed else "")
+    pairs = " ".join(f"{_number(x)},{_number(y)}" for x, y in points.tolist())
+    return f"M{pairs}" + (" Z" if line.closed else "")
 
 
 def _number(value: float) -> str:

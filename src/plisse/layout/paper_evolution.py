@@ -62,7 +62,7 @@ def _osculating(points: np.ndarray, closed: bool) -> np.ndarray:
     vectors = curvature_vectors(points, closed)
     bent = norm(vectors) > 1e-9
     if not bent.any():
-        raise ZeroDivisionError("a straight polyline has no binormal")
+        raise Infeasible("a guiding curve is straight and has no side to evolve to; start from a bent curve")
     place, where = np.arange(len(points)), np.flatnonzero(bent)
     nearest = where[np.argmin(np.abs(place[:, None] - where), axis=1)]
     return unit(vectors[nearest])

@@ -12,7 +12,7 @@ from plisse.solve.problem import Blocks, Linearisation, Problem
 __all__ = ["Minimum", "Status", "levenberg_marquardt"]
 
 LEAST_DAMPING, MOST_DAMPING = 1e-14, 1e12
-VANISHING = 1e-30  # cost per residual that is nothing but round-off, residuals being of size 1
+VANISHING = 1e-28  # cost per residual that is nothing but round-off, residuals being of size 1
 
 
 class Status(Enum):

@@ -5,5 +5,5 @@ from plisse.solve.principal.fit import PrincipalFit, fit_candidates, fit_princip
 from plisse.solve.principal.judge import Regularity
 from plisse.solve.principal.numbers import PrincipalNumbers
 
-__all__ = ["PrincipalFit", "PrincipalNumbers", "Regularity", "fit_candidates", "fit_principal", "march_closed",
-           "march_structure"]
+__all__ = ["PrincipalFit", "PrincipalNumbers", "Regularity", "fit_candidates", "fit_principal",
+           "march_closed", "march_structure"]

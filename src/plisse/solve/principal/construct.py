@@ -1,4 +1,4 @@
-"""The explicit construction as such: a seed polyline and numbers in, an exact principal structure out (§2.5)."""
+"""The explicit construction as such: seed polyline and numbers in, exact principal structure out (§2.5)."""
 
 import numpy as np
 
@@ -14,26 +14,29 @@ __all__ = ["march_closed", "march_structure"]
 _CLOSED = 1e-9  # largest gap of a crease that counts as closed
 
 
-def march_structure(seed: np.ndarray, half_opening: np.ndarray | float, after: np.ndarray, before: np.ndarray | None = None,
-                    *, rims: tuple[float, float] | None = None, reference: np.ndarray | None = None) -> np.ndarray:
+def march_structure(seed: np.ndarray, half_opening: np.ndarray | float, after: np.ndarray,
+                    before: np.ndarray | None = None, *, rims: tuple[float, float] | None = None,
+                    reference: np.ndarray | None = None) -> np.ndarray:
     """Vertices (m, n, 3) of the principal structure through an open seed polyline (n, 3).
 
-    `after` (k, 3) has distance t, direction β and signed fold angle φ of the creases after the seed, outwards, each
-    prescribed in the middle; `before` those on the other side. Each side ends with a free rim at the distances `rims`
-    (before, after; by default the last t). For pleats φ alternates, beginning negative after and positive before the
-    seed, whose own fold angle is π − 2 half_opening. Everything may carry a batch axis in front: seed (B, n, 3) or
-    (n, 3), half_opening (B,), after and before (B, k, 3), and the vertices are (B, m, n, 3).
-    `reference` (3,) says on which side of the seed the strips lie; by default its mean binormal.
+    `after` (k, 3) has distance t, direction β and signed fold angle φ of the creases after the seed,
+    outwards, each prescribed in the middle; `before` those on the other side. Each side ends with a free
+    rim at the distances `rims` (before, after; by default the last t). For pleats φ alternates, beginning
+    negative after and positive before the seed, whose own fold angle is π − 2 half_opening. Everything
+    may carry a batch axis in front: seed (B, n, 3) or (n, 3), half_opening (B,), after and before (B, k,
+    3), and the vertices are (B, m, n, 3). `reference` (3,) says on which side of the seed the strips lie;
+    by default its mean binormal.
     """
     return _structure(seed, half_opening, after, before, rims, reference, False)
 
 
-def march_closed(seed: np.ndarray, half_opening: np.ndarray | float, after: np.ndarray, before: np.ndarray | None = None,
-                 *, rims: tuple[float, float] | None = None, reference: np.ndarray | None = None) -> np.ndarray:
+def march_closed(seed: np.ndarray, half_opening: np.ndarray | float, after: np.ndarray,
+                 before: np.ndarray | None = None, *, rims: tuple[float, float] | None = None,
+                 reference: np.ndarray | None = None) -> np.ndarray:
     """Like `march_structure` for closed seeds (n, 3), the first point not repeated; n should be odd.
 
-    Numbers belong to vertex and face 0; t is kept, β and φ are guesses from which the closing ones are found.
-    Raises `Infeasible` where a crease does not close.
+    Numbers belong to vertex and face 0; t is kept, β and φ are guesses from which the closing ones are
+    found. Raises `Infeasible` where a crease does not close.
     """
     return _structure(seed, half_opening, after, before, rims, reference, True)
 
@@ -53,14 +56,15 @@ def _structure(seed, half_opening, after, before, rims, reference, closed: bool)
 
 
 def _march(strip: Strip, trios: np.ndarray, rim: float | None, closed: bool) -> list[np.ndarray]:
-    """Creases (3, B, n) with numbers (B, k, 3) on one side, then the rim; nothing if there is no number and no rim."""
-    creases = []
+    """Creases (3, B, n) with numbers (B, k, 3) on one side, then the rim; none without numbers and rim."""
+    creases: list[np.ndarray] = []
     for distance, direction, fold in trios.transpose(1, 2, 0):
         if closed:
             guess = np.stack([direction, fold], axis=-1)
             closing, gap = close_crease(strip, distance, guess)
             if not gap.max() < _CLOSED:
-                raise Infeasible(f"closed crease {len(creases) + 1} from the seed misses itself by {gap.max():.1e} rad")
+                raise Infeasible(f"closed crease {len(creases) + 1} from the seed misses itself "
+                                 f"by {gap.max():.1e} rad")
             strip = closed_crease(strip, distance, *closing.T).beyond
         else:
             strip = next_crease(strip, distance, direction, fold).beyond
@@ -73,13 +77,14 @@ def _march(strip: Strip, trios: np.ndarray, rim: float | None, closed: bool) -> 
 
 
 def _batched(seed: np.ndarray, half_opening, sides: tuple) -> tuple[np.ndarray, np.ndarray, list[np.ndarray]]:
-    """Component-first seeds (3, B, n), half openings (B,) and numbers (B, k, 3) of both sides, with a common B."""
+    """Component-first seeds (3, B, n), half openings (B,) and numbers (B, k, 3) of both sides, of one B."""
     seed = seed if seed.ndim == 3 else seed[None]
     half = np.atleast_1d(np.asarray(half_opening, dtype=float))
-    sides = [side if side.ndim == 3 else side[None] for side in sides]
-    count = max(len(seed), len(half), *(len(side) for side in sides))
+    trios = [side if side.ndim == 3 else side[None] for side in sides]
+    count = max(len(seed), len(half), *(len(side) for side in trios))
     points = np.broadcast_to(seed, (count, *seed.shape[1:])).transpose(2, 0, 1)
-    return points, np.broadcast_to(half, count), [np.broadcast_to(side, (count, *side.shape[1:])) for side in sides]
+    trios = [np.broadcast_to(side, (count, *side.shape[1:])) for side in trios]
+    return points, np.broadcast_to(half, count), trios
 
 
 def _reference(points: np.ndarray, reference: np.ndarray | None, closed: bool) -> np.ndarray:

@@ -14,7 +14,7 @@ LOST = 10.0  # amplitudes from which more iterations do not bring a fit back
 
 
 def direct_fit(target: Target, terms: int, stiffness: float) -> PrincipalNumbers:
-    """All numbers of a structure along the target's guides, with `terms` displacement coefficients per normal.
+    """All numbers of a structure along the guides, with `terms` displacement coefficients per normal.
 
     Closed creases need no greedy start: typical widths suffice, direction and fold follow from closing.
     """

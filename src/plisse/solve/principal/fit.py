@@ -1,7 +1,7 @@
-"""Principal structures along given guiding creases: attempts of increasing expense, the first good one or the best.
+"""Principal structures along guiding creases: attempts of increasing expense, the first good one or the best.
 
-A principal structure has about as many conditions as unknowns, so optimising its vertices stalls; fitting the numbers
-of the explicit construction does not, and every attempt is exact.
+A principal structure has about as many conditions as unknowns, so optimising its vertices stalls; fitting
+the numbers of the explicit construction does not, and every attempt is exact.
 """
 
 from collections.abc import Callable, Iterator
@@ -22,6 +22,7 @@ from plisse.solve.principal.target import Target, aim
 __all__ = ["PrincipalFit", "fit_candidates", "fit_principal"]
 
 _ACCEPTED = 1.0  # amplitudes
+_ENOUGH = 2  # attempts after which a regular structure is taken although it is farther off
 _HOPELESS = 4.0  # amplitudes: an irregular coarse fit farther off is given up
 _LADDER = (61, 121)  # samples per crease at which the numbers are fitted first
 _DRIFT = 0.02  # amplitudes by which the deviation may grow from one resolution to the next without a new fit
@@ -32,8 +33,8 @@ _OPEN_TERMS, _CLOSED_TERMS = 8, 9
 class PrincipalFit:
     """An exact principal structure with vertices (m, n, 3) whose crease l follows guide l.
 
-    Deviations of the creases from the guides (extended tangentially) are in amplitudes; `message` says why the result
-    is poor and is empty for a regular structure near its guides.
+    Deviations of the creases from the guides (extended tangentially) are in amplitudes; `message` says
+    why the result is poor and is empty for a regular structure near its guides.
     """
 
     vertices: np.ndarray
@@ -57,16 +58,16 @@ class PrincipalFit:
 def fit_principal(guides: np.ndarray, amplitude: float, *, closed: bool = False, **options) -> PrincipalFit:
     """The first attempt that is regular and within an amplitude of guides (m, n, 3), else the best one.
 
-    Raises `Infeasible` for closed creases with an even number of samples whose rectifying planes do not close.
+    Raises `Infeasible` for closed creases with an even number of samples whose rectifying planes do not
+    close.
     """
-    best = None
-    for attempt in fit_candidates(guides, amplitude, closed=closed, **options):
+    best: PrincipalFit | None = None
+    for tried, attempt in enumerate(fit_candidates(guides, amplitude, closed=closed, **options), start=1):
         if best is None or attempt.badness < best.badness:
             best = attempt
-        if best.is_good:
+        if best.is_good or (tried >= _ENOUGH and not best.regularity.message):
             break
-    if best is None:
-        raise Infeasible("no principal structure could be constructed along these guides")
+    assert best is not None
     return best
 
 
@@ -74,8 +75,9 @@ def fit_candidates(guides: np.ndarray, amplitude: float, *, closed: bool = False
                    stiffness: float = 0.02) -> Iterator[PrincipalFit]:
     """Exact attempts along guides (m, n, 3), cheap ones first: at once, progressively, from other seeds.
 
-    Attempts that are hopeless on few samples are not refined; if all are, the least bad one is the only candidate.
-    `terms` is the number of displacement coefficients of the seed per normal, `stiffness` holds them small.
+    Attempts that are hopeless on few samples are not refined; if all are, the least bad one is the only
+    candidate. `terms` is the number of displacement coefficients of the seed per normal, `stiffness`
+    holds them small.
     """
     guides = _checked(guides)
     centre = guides.mean(axis=(0, 1))
@@ -115,7 +117,7 @@ def _refined(target: Target, coarse: Target, numbers: PrincipalNumbers, stiffnes
     for samples in [*(rung for rung in _LADDER[1:] if 1.5 * rung < target.samples), target.samples]:
         fine = target.at(samples)
         if _is_worse(fine, coarse, numbers):
-            numbers, _ = joint_fit(fine, numbers, 12, stiffness)
+            numbers, _ = joint_fit(fine, numbers, 8, stiffness)
         coarse = fine
     return numbers
 
@@ -124,7 +126,9 @@ def _is_worse(fine: Target, coarse: Target, numbers: PrincipalNumbers) -> bool:
     """Irregular, or farther from the guides than on fewer samples."""
     creases = realise(fine, numbers)
     allowed = crease_deviation(coarse, realise(coarse, numbers)).max() + _DRIFT
-    return bool(regularity(creases, fine.closed).message) or not crease_deviation(fine, creases).max() < allowed
+    if regularity(creases, fine.closed).message:
+        return True
+    return not crease_deviation(fine, creases).max() < allowed
 
 
 def _result(target: Target, numbers: PrincipalNumbers, centre: np.ndarray) -> PrincipalFit:

@@ -1,6 +1,7 @@
-"""First numbers, crease by crease outwards from the seed: each crease alone near its guide, looking one guide ahead."""
+"""First numbers, crease by crease outwards from the seed: each near its guide, looking one guide ahead."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -32,13 +33,14 @@ def opened(target: Target, numbers: PrincipalNumbers) -> PrincipalNumbers:
     return replace(numbers, half_opening=float(halves[np.argmin(cost)]))
 
 
-def greedy_fit(target: Target, numbers: PrincipalNumbers, known: frozenset[int] = frozenset()) -> PrincipalNumbers:
+def greedy_fit(target: Target, numbers: PrincipalNumbers,
+               known: frozenset[int] = frozenset()) -> PrincipalNumbers:
     """Fit every inner crease of the target that is not `known`, in the order of the march."""
     creases = numbers.creases.copy()
     half, displacement = np.array([numbers.half_opening]), numbers.displacement[None]
     with np.errstate(all="ignore"):
         for strip, side in zip(target.seed_strips(displacement, half), target.sides(), strict=True):
-            for crease, following in zip(side[:-1], side[1:], strict=True):
+            for crease, following in pairwise(side):
                 if crease not in known:
                     creases[crease] = _fit_crease(target, crease, following, strip, creases[crease, 2])
                 strip = next_crease(strip, *creases[crease][:, None]).beyond
@@ -74,7 +76,7 @@ def _fit_crease(target: Target, crease: int, following: int, strip: Strip, fold:
 
 
 def _first_guess(target: Target, crease: int, strip: Strip) -> tuple[float, float]:
-    """Distance and direction in the middle: where the ruling comes nearest to the guide, and the guide's tangent."""
+    """Distance and direction in the middle: where the ruling is nearest to the guide; its tangent."""
     middle = strip.points.shape[-1] // 2
     width = target.widths[crease]
     near = rim_reach(target, crease, strip)[1][0, max(0, middle - 3):middle + 4]

@@ -11,7 +11,7 @@ _FAR = 1e9
 
 
 class Guide:
-    """A polyline (3, n) whose first and last edges go on straight, so that longer creases have somewhere to be near."""
+    """A polyline (3, n) whose end edges go on straight, so that longer creases have somewhere to be near."""
 
     def __init__(self, points: np.ndarray, closed: bool = False):
         self.points = np.concatenate([points[:, -2:], points, points[:, :2]], axis=1) if closed else points
@@ -20,7 +20,7 @@ class Guide:
         self._tree = cKDTree(self.points.T)
 
     def feet(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Closest points (3, k) and unit directions (3, k) of the guide there, on the two edges at the nearest vertex."""
+        """Closest points (3, k) and unit directions (3, k) of the guide, on edges at the nearest vertex."""
         _, vertex = self._tree.query(np.nan_to_num(points.T, nan=0.0, posinf=_FAR, neginf=-_FAR))
         last = self._edges.shape[1] - 1
         before = self._on_edge(points, np.clip(vertex - 1, 0, last))
@@ -47,7 +47,7 @@ def off_tangent(points: np.ndarray, foot: np.ndarray, tangent: np.ndarray) -> np
 
 def nearest_on_rulings(points: np.ndarray, rulings: np.ndarray, foot: np.ndarray,
                        tangent: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Signed distance of each ruling line from the line (foot, tangent), and where on the ruling it is nearest: (B, n)."""
+    """Signed distance of each ruling from the line (foot, tangent), and where on it that is: (B, n)."""
     lines = np.broadcast_to(tangent[:, None], rulings.shape)
     normal = cross(rulings, lines)
     square = dot(normal, normal)

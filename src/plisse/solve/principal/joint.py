@@ -1,6 +1,7 @@
 """All numbers at once: normal equations of a whole march by batched differences.
 
-The batch of a strip has one member per unknown that can have changed it, so it grows by three with every crease.
+The batch of a strip has one member per unknown that can have changed it, so it grows by three with every
+crease.
 """
 
 import numpy as np
@@ -18,14 +19,14 @@ __all__ = ["joint_equations", "joint_fit", "seed_batch"]
 
 def joint_fit(target: Target, numbers: PrincipalNumbers, iterations: int, stiffness: float = 0.02,
               tolerance: float = 1e-3) -> tuple[PrincipalNumbers, float]:
-    """Least squares for all numbers of the target's creases; `stiffness` holds the displacement of the seed small."""
+    """Least squares for all numbers of the target's creases; `stiffness` holds the seed in place."""
     unknowns, cost = minimise(lambda x, slopes: joint_equations(target, x, slopes, stiffness),
                               pack(target, numbers), iterations, tolerance)
     return unpack(target, unknowns), cost
 
 
 def joint_equations(target: Target, unknowns: np.ndarray, slopes: bool, stiffness: float) -> NormalEquations:
-    """Distances from all guides and all hinges at the packed unknowns (size,), with derivatives if `slopes`."""
+    """Distances from all guides and all hinges at packed unknowns (size,), with derivatives if `slopes`."""
     equations = NormalEquations(unknowns)
     columns = seed_columns(target, unknowns) if slopes else np.arange(0)
     with np.errstate(all="ignore"):
@@ -45,8 +46,8 @@ def seed_batch(target: Target, unknowns: np.ndarray) -> tuple[np.ndarray, tuple[
     return target.seed_points(displacement), target.seed_strips(displacement, half_opening)
 
 
-def _march_side(target: Target, equations: NormalEquations, strip: Strip, side: list[int], columns: np.ndarray,
-                slopes: bool) -> None:
+def _march_side(target: Target, equations: NormalEquations, strip: Strip, side: list[int],
+                columns: np.ndarray, slopes: bool) -> None:
     """Add all creases of one side; the last one is a free rim."""
     if not side:
         return
@@ -87,7 +88,8 @@ def _found(target: Target, unknowns: np.ndarray, strip: Strip, crease: int, trio
 
 def _widened(strip: Strip, members: int) -> Strip:
     """The batch with `members` more copies of its first member."""
-    return Strip(*(np.concatenate([array, np.repeat(array[:, :1], members, axis=1)], axis=1) for array in strip))
+    copies = (np.repeat(array[:, :1], members, axis=1) for array in strip)
+    return Strip(*(np.concatenate(pair, axis=1) for pair in zip(strip, copies, strict=True)))
 
 
 def _displaced(unknowns: np.ndarray, columns: np.ndarray) -> np.ndarray:

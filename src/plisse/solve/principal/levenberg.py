@@ -15,7 +15,8 @@ _TRIALS = 8
 class NormalEquations:
     """H = Jᵀ J, g = Jᵀ r and the cost r·r of residual blocks; `numbers` is where they were evaluated.
 
-    A block (B, k) has the residuals in its first row and, in the others, those with one unknown displaced by DIFFERENCE.
+    A block (B, k) has the residuals in its first row and, in the others, those with one unknown displaced
+    by DIFFERENCE.
     """
 
     def __init__(self, numbers: np.ndarray):
@@ -25,7 +26,7 @@ class NormalEquations:
         self.cost = 0.0
 
     def add(self, block: np.ndarray, columns: np.ndarray, robust: bool = False) -> None:
-        """Add a block whose rows 1, 2, … belong to the unknowns `columns`; robust: 2 (√(1 + r²) − 1) in place of r²."""
+        """Add a block whose rows 1, 2, … belong to `columns`; robust: 2 (√(1 + r²) − 1) in place of r²."""
         block = np.nan_to_num(block, nan=_HOPELESS, posinf=_HOPELESS, neginf=-_HOPELESS)
         block = np.clip(block, -_HOPELESS, _HOPELESS)
         residual = block[0]
@@ -57,9 +58,10 @@ Evaluate = Callable[[np.ndarray, bool], NormalEquations]
 
 def minimise(evaluate: Evaluate, start: np.ndarray, iterations: int, tolerance: float = 1e-3,
              damping: float = 1e-4) -> tuple[np.ndarray, float]:
-    """Numbers and cost after at most `iterations` steps; stops when a step gains less than `tolerance` of the cost.
+    """Numbers and cost after at most `iterations` steps, fewer if one gains less than `tolerance` of it.
 
-    `evaluate(numbers, slopes)` may return equations with corrected numbers (closed creases solve for some of them).
+    `evaluate(numbers, slopes)` may return equations with corrected numbers (closed creases solve for some
+    of them).
     """
     numbers, cost = np.array(start, dtype=float), np.inf
     for _ in range(iterations):

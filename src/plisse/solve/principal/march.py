@@ -1,14 +1,15 @@
-"""The explicit construction of principal pleated structures, crease by crease, exact by construction (§2.4, §2.5).
+"""The construction of principal pleated structures, crease by crease, exact by construction (§2.4, §2.5).
 
-Given a strip and a signed fold angle for the next crease q = p + t r, let β[i] be the angle at q[i] between the ruling
-back to p[i] and the edge to q[i+1], δ[i] the angle between rulings i and i+1, φ_c and φ_r[i] the folds at the crease
-and at the ruling, T = tan(φ_r/2) / tan(φ_c/2). All four conditions at q[i] together say
+Given a strip and a signed fold angle for the next crease q = p + t r, let β[i] be the angle at q[i]
+between the ruling back to p[i] and the edge to q[i+1], δ[i] the angle between rulings i and i+1, φ_c and
+φ_r[i] the folds at the crease and at the ruling, T = tan(φ_r/2) / tan(φ_c/2). All four conditions at q[i]
+together say
 
     tan(β[i]/2) = (1 − T)/(1 + T) · tan((β[i−1] − δ[i−1])/2),
 
-so one number, the direction in the middle of the crease, gives all directions, and a second, the distance there, all
-distances. Three numbers (t, β̄, φ_c) determine a crease; they are prescribed in the middle, β̄ as the mean of the
-two directions there, so that they do not depend on the number of samples.
+so one number, the direction in the middle of the crease, gives all directions, and a second, the distance
+there, all distances. Three numbers (t, β̄, φ_c) determine a crease; they are prescribed in the middle, β̄
+as the mean of the two directions there, so that they do not depend on the number of samples.
 """
 
 from typing import NamedTuple
@@ -16,14 +17,14 @@ from typing import NamedTuple
 import numpy as np
 
 from plisse.geometry.components import cross, dot, unit
-from plisse.solve.principal.moebius import Matrix, affine_chain, homogeneous_chain, inverse
+from plisse.solve.principal.moebius import Matrix, affine_chain, homogeneous_chain, inverse, sliced
 from plisse.solve.principal.strip import Strip, rulings_between
 
 __all__ = ["Crease", "distance_maps", "fold_maps", "fold_over", "next_crease", "ruling_folds"]
 
 
 class Crease(NamedTuple):
-    """A crease found on a strip: distances along the rulings (B, n), sin β (B, faces), and the strip beyond it."""
+    """A crease found on a strip: distances along the rulings (B, n), sin β (B, faces), the strip beyond."""
 
     distances: np.ndarray
     sine: np.ndarray
@@ -43,7 +44,7 @@ def next_crease(strip: Strip, distance: np.ndarray, direction: np.ndarray, fold:
 
 
 def ruling_folds(strip: Strip, closed: bool = False) -> np.ndarray:
-    """tan(φ_r/2) at the rulings: (B, n − 2) inner ones of an open strip, (B, n) of a closed one beginning at ruling 1.
+    """tan(φ_r/2) at rulings: (B, n − 2) inner ones of an open strip, (B, n) of a closed one from ruling 1 on.
 
     The sign is the one for which angles add up to 2π beyond the next crease.
     """
@@ -55,7 +56,7 @@ def ruling_folds(strip: Strip, closed: bool = False) -> np.ndarray:
 
 
 def fold_maps(strip: Strip, folds: np.ndarray, half_fold: np.ndarray, closed: bool = False) -> Matrix:
-    """Matrices (B, k) that take (sin β/2, cos β/2) of a face to the next face, over the rulings of `folds`."""
+    """Matrices (B, k) that take (sin β/2, cos β/2) of a face to the next one, over the rulings of `folds`."""
     rulings = strip.rulings
     following = np.roll(rulings, -1, -1) if closed else rulings[..., 1:-1]
     faces = slice(None) if closed else slice(None, -1)
@@ -83,7 +84,7 @@ def distance_maps(strip: Strip, sine: np.ndarray, cosine: np.ndarray,
 
 def fold_over(strip: Strip, distances: np.ndarray, sine: np.ndarray, cosine: np.ndarray, fold: np.ndarray,
               closed: bool = False) -> Strip:
-    """The strip beyond the crease at distances (B, n), in directions β (B, faces): faces turned about its edges."""
+    """The strip beyond the crease at distances (B, n), in directions β (B, faces): faces turn on edges."""
     points = strip.points + distances * strip.rulings
     edges = unit(_edges(strip, sine, cosine))
     backward = unit(cross(edges, strip.normals))
@@ -95,15 +96,17 @@ def fold_over(strip: Strip, distances: np.ndarray, sine: np.ndarray, cosine: np.
 
 
 def _edges(strip: Strip, sine: np.ndarray, cosine: np.ndarray) -> np.ndarray:
-    """Unit edges (3, B, faces) of the crease whose edge i makes the angle β[i] with the ruling i back to the strip."""
+    """Unit edges (3, B, faces) of the crease: edge i makes the angle β[i] with ruling i, taken backward."""
     rulings = strip.rulings[..., :sine.shape[-1]]
     return sine * cross(rulings, strip.normals) - cosine * rulings
 
 
-def _directions(maps: Matrix, sine: np.ndarray, cosine: np.ndarray, middle: int) -> tuple[np.ndarray, np.ndarray]:
+def _directions(maps: Matrix, sine: np.ndarray, cosine: np.ndarray,
+                middle: int) -> tuple[np.ndarray, np.ndarray]:
     """sin β and cos β (B, n − 1) from the half-angle state in face `middle`, outwards on both sides."""
-    forward = homogeneous_chain(tuple(x[..., middle:] for x in maps), sine, cosine)
-    back = homogeneous_chain(inverse(tuple(x[..., :middle][..., ::-1] for x in maps)), sine, cosine)
+    forward = homogeneous_chain(sliced(maps, slice(middle, None)), sine, cosine)
+    reverse = slice(middle - 1, None, -1)
+    back = homogeneous_chain(inverse(sliced(maps, reverse)), sine, cosine)
     u, v = (np.concatenate([left[..., ::-1], start[..., None], right], axis=-1)
             for left, start, right in zip(back, (sine, cosine), forward, strict=True))
     square = u * u + v * v

@@ -1,12 +1,13 @@
 """Products of 2 × 2 matrices along a crease, and chains of affine maps, without loops.
 
-A fold condition turns tan(β/2) into the next tan(β/2) by a Möbius map. On homogeneous coordinates
-(sin β/2, cos β/2) it is a matrix, has no poles, and prefix products (a scan) compose all of them in log₂ n passes.
+A fold condition turns tan(β/2) into the next tan(β/2) by a Möbius map. On homogeneous coordinates (sin
+β/2, cos β/2) it is a matrix, has no poles, and prefix products (a scan) compose all of them in log₂ n
+passes.
 """
 
 import numpy as np
 
-__all__ = ["affine_chain", "homogeneous_chain", "inverse", "prefix_products"]
+__all__ = ["affine_chain", "homogeneous_chain", "inverse", "prefix_products", "sliced"]
 
 Matrix = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]  # a, b, c, d of [[a, b], [c, d]], each (B, n)
 
@@ -31,8 +32,15 @@ def inverse(matrices: Matrix) -> Matrix:
     return d, -b, -c, a
 
 
-def homogeneous_chain(matrices: Matrix, sine: np.ndarray, cosine: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Images (B, n) of the state (sine, cosine), each (B,), under M[0], M[1] M[0], … as points of any length."""
+def sliced(matrices: Matrix, part: slice) -> Matrix:
+    """The matrices of a part of the crease."""
+    a, b, c, d = matrices
+    return a[..., part], b[..., part], c[..., part], d[..., part]
+
+
+def homogeneous_chain(matrices: Matrix, sine: np.ndarray,
+                      cosine: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Images (B, n) of the state (sine, cosine), each (B,), under M[0], M[1] M[0], …, of any length."""
     a, b, c, d = prefix_products(matrices)
     u, v = sine[..., None], cosine[..., None]
     return a * u + b * v, c * u + d * v

@@ -11,8 +11,9 @@ __all__ = ["progressive_fit"]
 _ITERATIONS = 4  # of the joint fit per added pair of creases
 
 
-def progressive_fit(target: Target, terms: int, stiffness: float, windows: tuple[float, ...]) -> PrincipalNumbers:
-    """Add creases outwards on both sides, refitting all numbers each time; then widen the window over the length."""
+def progressive_fit(target: Target, terms: int, stiffness: float,
+                    windows: tuple[float, ...]) -> PrincipalNumbers:
+    """Add creases outwards on both sides, refitting all numbers each time; then widen the window."""
     last = len(target.guides) - 1
     numbers = with_terms(start(target), terms)
     known: frozenset[int] = frozenset()

@@ -33,7 +33,8 @@ def realise(target: Target, numbers: PrincipalNumbers) -> np.ndarray:
 
 def crease_deviation(target: Target, creases: np.ndarray) -> np.ndarray:
     """Distances (m, n) of creases (m, 3, n) from their guides, extended tangentially, in amplitudes."""
-    offsets = [off_guide(target, crease, points[:, None]).reshape(3, -1) for crease, points in enumerate(creases)]
+    offsets = [off_guide(target, crease, points[:, None]).reshape(3, -1)
+               for crease, points in enumerate(creases)]
     return norm(np.stack(offsets, axis=1))
 
 
@@ -46,9 +47,10 @@ def _next(target: Target, strip: Strip, trio: np.ndarray) -> Strip:
 
 
 def _rim(target: Target, crease: int, strip: Strip) -> np.ndarray:
-    """Distances (n,) of a smooth rim: the series of few terms nearest to where rulings come nearest to the guide."""
+    """Distances (n,) of a smooth rim: a short series through where rulings are nearest to the guide."""
     width = target.widths[crease]
     reach = np.clip(np.nan_to_num(rim_reach(target, crease, strip)[1][0], nan=width), 0.3 * width, 2 * width)
-    shapes = basis(2 * _RIM_TERMS + 1 if target.closed else _RIM_TERMS, places(target.samples, target.closed), target.closed)
+    terms = 2 * _RIM_TERMS + 1 if target.closed else _RIM_TERMS
+    shapes = basis(terms, places(target.samples, target.closed), target.closed)
     smooth = np.linalg.lstsq(shapes.T, reach, rcond=None)[0] @ shapes
     return np.clip(smooth, 0.25 * width, 2.2 * width)

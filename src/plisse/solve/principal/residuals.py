@@ -1,4 +1,4 @@
-"""What a fit makes small: distances from the guides in amplitudes, and hinges that keep faces from turning over."""
+"""What a fit makes small: distances from guides in amplitudes, and hinges against faces turning over."""
 
 import numpy as np
 
@@ -24,20 +24,20 @@ def off_guide(target: Target, crease: int, points: np.ndarray) -> np.ndarray:
 
 
 def rim_reach(target: Target, crease: int, strip: Strip) -> tuple[np.ndarray, np.ndarray]:
-    """By how much rulings miss the guide of the next crease, signed, and where on the ruling (B, n) they come nearest."""
+    """By how much rulings miss the next crease's guide, signed, and where on the ruling (B, n) that is."""
     width = target.widths[crease]
-    miss, reach = _toward(target, crease, strip, np.full(strip.points.shape[-1], width))
+    _, reach = _toward(target, crease, strip, np.full(strip.points.shape[-1], width))
     return _toward(target, crease, strip, np.clip(np.nan_to_num(reach[0], nan=width), *_reach(width)))
 
 
-def rim_miss(target: Target, crease: int, strip: Strip, amplify: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
-    """Distances of rulings from the next guide in amplitudes, and where they are nearest in widths, both (B, n)."""
+def rim_miss(target: Target, crease: int, strip: Strip) -> tuple[np.ndarray, np.ndarray]:
+    """Distances of rulings from the next guide in amplitudes, and where on them, in widths: (B, n)."""
     miss, reach = rim_reach(target, crease, strip)
-    return amplify * miss / target.amplitude * target.weights, reach / target.widths[crease]
+    return miss / target.amplitude * target.weights, reach / target.widths[crease]
 
 
 def rim_hinges(target: Target, crease: int, strip: Strip, reach: np.ndarray) -> list[np.ndarray]:
-    """Hinges for a free rim at `reach` (B, n) widths: it stays in front of the crease and its edges run forward."""
+    """Hinges for a free rim at `reach` (B, n) widths: it stays in front, and its edges run forward."""
     distance = np.clip(reach, *_REACH) * target.widths[crease]
     return _masked(target, [3 * _hinge(reach, _NARROWEST),
                             10 * _hinge(_advance(target, crease, strip, distance), _SHORTEST)])
@@ -64,7 +64,7 @@ def _reach(width: float) -> tuple[float, float]:
 
 
 def _advance(target: Target, crease: int, strip: Strip, distance: np.ndarray) -> np.ndarray:
-    """Edges of the crease at a distance (B, n), measured along the strip's crease in mean edge lengths (B, faces)."""
+    """Edges of the crease at a distance (B, n), along the strip's crease, in mean edge lengths (B, faces)."""
     points = strip.points + distance * strip.rulings
     edges = (successor(points) - points)[..., :strip.edges.shape[-1]]
     return dot(edges, strip.edges) / target.edge_lengths[crease]

@@ -1,9 +1,10 @@
 """Both strips of a seed polyline: rectifying planes, opened by a constant angle (§2.2, §2.5).
 
-The strips on both sides of a crease with constant fold angle are mirror images in its rectifying plane. On a polyline
-that plane is carried along by reflections: the mirror that takes edge e[i−1] to e[i] takes binormal b[i−1] to b[i].
-Measured from a smooth reference field the angle of b obeys angle[i] = c[i] − angle[i−1]. Its free constant is no
-freedom of design but an alternating (checkerboard) mode, which is removed.
+The strips on both sides of a crease with constant fold angle are mirror images in its rectifying plane.
+On a polyline that plane is carried along by reflections: the mirror that takes edge e[i−1] to e[i] takes
+binormal b[i−1] to b[i]. Measured from a smooth reference field the angle of b obeys angle[i] = c[i] −
+angle[i−1]. Its free constant is no freedom of design but an alternating (checkerboard) mode, which is
+removed.
 """
 
 import numpy as np
@@ -18,11 +19,12 @@ _CLOSING_GAP = 1e-9  # radians by which binormals of an even closed polyline may
 
 
 def rectifying_binormals(points: np.ndarray, reference: np.ndarray, closed: bool = False) -> np.ndarray:
-    """Unit binormals (3, B, faces), orthogonal to the edges of a polyline (3, B, n), in its rectifying planes.
+    """Unit binormals (3, B, faces), orthogonal to the edges of a polyline (3, B, n), in rectifying planes.
 
-    `reference` (3, B, faces) is any smooth field that is nowhere parallel to the curve. A closed polyline with an odd
-    number of points has exactly one such field up to sign; with an even number a sum has to vanish, which it does to
-    rounding error on smooth well sampled curves, and the constant is chosen as on open ones.
+    `reference` (3, B, faces) is any smooth field that is nowhere parallel to the curve. A closed polyline
+    with an odd number of points has exactly one such field up to sign; with an even number a sum has to
+    vanish, which it does to rounding error on smooth well sampled curves, and the constant is chosen as
+    on open ones.
     """
     edges = edge_directions(points, closed)
     first = unit(reference - dot(reference, edges) * edges)
@@ -34,7 +36,7 @@ def rectifying_binormals(points: np.ndarray, reference: np.ndarray, closed: bool
 
 def seed_strip(points: np.ndarray, binormals: np.ndarray, half_opening: np.ndarray, side: float,
                closed: bool = False) -> Strip:
-    """The strip on one side (±1) of the seed: its faces make the angle half_opening (B,) with the rectifying planes."""
+    """The strip on one side (±1): its faces make the angle half_opening (B,) with the rectifying planes."""
     edges = edge_directions(points, closed)
     half = np.asarray(half_opening)[..., None]
     inward = np.cos(half) * binormals + side * np.sin(half) * cross(edges, binormals)
@@ -45,7 +47,7 @@ def seed_strip(points: np.ndarray, binormals: np.ndarray, half_opening: np.ndarr
 
 
 def _reflected_angles(edges: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """c (B, faces): where the reference of the edge before lands under the mirror, measured in this edge's frame."""
+    """c (B, faces): where the reference of the edge before lands under the mirror, in this edge's frame."""
     before, frame = np.roll(edges, 1, axis=-1), np.roll(first, 1, axis=-1)
     mirror = edges - before
     length = dot(mirror, mirror)
@@ -68,10 +70,11 @@ def _closed_angles(turns: np.ndarray) -> np.ndarray:
     """The periodic solution of angle[i] = turns[i] − angle[i−1]."""
     count = turns.shape[-1]
     if count % 2 == 0:
-        gap = np.abs(np.remainder(((-1.0) ** np.arange(count) * turns).sum(axis=-1) + np.pi, 2 * np.pi) - np.pi)
+        total = ((-1.0) ** np.arange(count) * turns).sum(axis=-1)
+        gap = np.abs(np.arctan2(np.sin(total), np.cos(total)))
         if gap.max() > _CLOSING_GAP:
-            raise Infeasible(f"the rectifying planes of a closed crease with {count} points miss themselves by "
-                             f"{np.degrees(gap.max()):.2g}°; use an odd number of points")
+            raise Infeasible(f"rectifying planes along {count} points of a closed crease miss themselves by "
+                             f"{np.degrees(gap.max()):.2g}°: use an odd number of points")
         return _without_checkerboard(turns[..., 1:])
     signs = (-1.0) ** np.arange(count)
     unsigned = np.cumsum(signs[1:] * turns[..., 1:], axis=-1)

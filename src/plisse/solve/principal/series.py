@@ -1,7 +1,7 @@
-"""Smooth curves by few coefficients: Legendre polynomials along open creases, Fourier series around closed ones.
+"""Smooth curves by few coefficients: Legendre series along open creases, Fourier series around closed ones.
 
-A seed must be smooth up to its ends: splines and one-sided differences ripple the last edges, and the march amplifies
-ripples. A series also is the same curve at every resolution.
+A seed must be smooth up to its ends: splines and one-sided differences ripple the last edges, and the
+march amplifies ripples. A series also is the same curve at every resolution.
 """
 
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ __all__ = ["SmoothCurve", "basis", "places"]
 
 
 def places(samples: int, closed: bool, shift: float = 0.0) -> np.ndarray:
-    """Parameters (samples,) of the vertices in [0, 1]; a shift of 0.5 gives edge midpoints (one less when open)."""
+    """Parameters (samples,) of the vertices in [0, 1]; a shift of 0.5 gives edge midpoints."""
     if closed:
         return (np.arange(samples) + shift) / samples
     return (np.arange(samples - (shift > 0)) + shift) / (samples - 1)
@@ -25,9 +25,9 @@ def basis(terms: int, at: np.ndarray, closed: bool) -> np.ndarray:
     """Values (terms, k): Legendre polynomials of degree below `terms`, or 1, cos, sin, cos 2, sin 2, …"""
     if not closed:
         return legvander(2 * at - 1, terms - 1).T
-    order = (np.arange(terms) + 1) // 2
-    phase = 2 * np.pi * order[:, None] * at
-    return np.where(np.arange(terms)[:, None] % 2 == 1, np.cos(phase), np.where(order[:, None] > 0, np.sin(phase), 1.0))
+    phases = 2 * np.pi * np.arange(1, (terms + 1) // 2 + 1)[:, None] * at
+    waves = np.stack([np.cos(phases), np.sin(phases)], axis=1).reshape(-1, len(at))
+    return np.concatenate([np.ones((1, len(at))), waves])[:terms]
 
 
 @dataclass(frozen=True)
@@ -39,8 +39,9 @@ class SmoothCurve:
     closed: bool
 
     @classmethod
-    def fitted(cls, points: np.ndarray, reference: np.ndarray, closed: bool, tolerance: float) -> "SmoothCurve":
-        """Least squares through points (3, n) and a field at edge midpoints (3, faces), with as few terms as do."""
+    def fitted(cls, points: np.ndarray, reference: np.ndarray, closed: bool,
+               tolerance: float) -> "SmoothCurve":
+        """Least squares through points (3, n) and a field (3, faces) at edge midpoints, with few terms."""
         count = points.shape[1]
         at, between = places(count, closed), places(count, closed, 0.5)
         position = _coefficients(points, at, closed, 4)

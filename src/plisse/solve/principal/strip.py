@@ -1,7 +1,7 @@
 """Strips: the developable between two creases, as a crease polyline with its rulings and face planes.
 
-Everything is component-first and batched: points (3, B, n). In face i lie the edge i → i+1 of the crease and the
-rulings i and i+1. An open strip has n − 1 faces and free end rulings, a closed one n of each.
+Everything is component-first and batched: points (3, B, n). In face i lie the edge i → i+1 of the crease
+and the rulings i and i+1. An open strip has n − 1 faces and free end rulings, a closed one n of each.
 """
 
 from typing import NamedTuple
@@ -16,10 +16,10 @@ _STEEPEST_END = 0.1  # largest change of cot(ruling angle) from the last but one
 
 
 class Strip(NamedTuple):
-    """One strip: crease points (3, B, n), their unit edges and the unit face normals (3, B, faces), rulings (3, B, n).
+    """Crease points (3, B, n), unit edges and unit face normals (3, B, faces), unit rulings (3, B, n).
 
-    The edges are carried along although the points determine them: rounded points know an edge only to 1e-16 |X| / h,
-    and rulings amplify that error by 1 / (κ h).
+    The edges are carried along although the points determine them: rounded points know an edge only to
+    1e-16 |X| / h, and rulings amplify that error by 1 / (κ h).
     """
 
     points: np.ndarray
@@ -45,8 +45,9 @@ def edge_directions(points: np.ndarray, closed: bool) -> np.ndarray:
 def rulings_between(edges: np.ndarray, inward: np.ndarray, normals: np.ndarray, closed: bool) -> np.ndarray:
     """Rulings (3, B, n): where planes of neighbouring faces meet, on the side of the strip.
 
-    `inward` (3, B, faces) lies in each face, orthogonal to its edge. f × g is taken as f × (g − f): the planes are
-    almost parallel and the difference is exact, so rulings lie in both planes to rounding error.
+    `inward` (3, B, faces) lies in each face, orthogonal to its edge. f × g is taken as f × (g − f): the
+    planes are almost parallel and the difference is exact, so rulings lie in both planes to rounding
+    error.
     """
     if closed:
         before, after = np.roll(normals, 1, axis=-1), normals
@@ -60,7 +61,7 @@ def rulings_between(edges: np.ndarray, inward: np.ndarray, normals: np.ndarray, 
 
 
 def _with_ends(edges: np.ndarray, inward: np.ndarray, inner: np.ndarray) -> np.ndarray:
-    """Free rulings at both ends: cot(angle with the crease) continued linearly, in the plane of the end face."""
+    """Free rulings at both ends: cot(angle with the crease) continued linearly, in the end face's plane."""
     first = _end_cotangent(edges[..., 1:5], inward[..., 1:5], inner[..., :4])
     last = _end_cotangent(edges[..., -2:-6:-1], inward[..., -2:-6:-1], inner[..., :-5:-1])
     start = unit(first * edges[..., 0] + inward[..., 0])[..., None]

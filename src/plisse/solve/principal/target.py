@@ -1,4 +1,4 @@
-"""What a fit aims at: guiding creases at one resolution, the smooth seed, and first guesses read off the guides."""
+"""What a fit aims at: guiding creases at one resolution, a smooth seed, and guesses read off the guides."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -20,8 +20,8 @@ __all__ = ["Target", "aim", "resample"]
 class Target:
     """Guides (m, 3, n) to follow from crease `seed` outwards, within the creases [first, last] and a window.
 
-    `widths` (m,) are typical distances to the neighbour nearer to the seed, `folds` (m,) the signed fold angles of the
-    guides, `side` the sign of the strip towards crease seed + 1.
+    `widths` (m,) are typical distances to the neighbour nearer to the seed, `folds` (m,) the signed fold
+    angles of the guides, `side` the sign of the strip towards crease seed + 1.
     """
 
     guides: np.ndarray
@@ -75,7 +75,8 @@ class Target:
         """The strips after and before the seed for a batch of displacements (B, 2, K) and angles (B,)."""
         points = self.seed_points(displacement)
         binormals = rectifying_binormals(points, self._seed[1], self.closed)
-        after, before = (seed_strip(points, binormals, half_opening, sign * self.side, self.closed) for sign in (1, -1))
+        after, before = (seed_strip(points, binormals, half_opening, sign * self.side, self.closed)
+                         for sign in (1, -1))
         return after, before
 
     @cached_property
@@ -89,7 +90,9 @@ class Target:
 
     def at(self, samples: int) -> "Target":
         """The same aim at another resolution."""
-        return self if samples == self.samples else replace(self, guides=resample(self.guides, samples, self.closed))
+        if samples == self.samples:
+            return self
+        return replace(self, guides=resample(self.guides, samples, self.closed))
 
 
 def aim(guides: np.ndarray, amplitude: float, seed: int, closed: bool) -> Target:
@@ -108,7 +111,8 @@ def aim(guides: np.ndarray, amplitude: float, seed: int, closed: bool) -> Target
         if crease != seed and 0 < crease < count - 1:
             folds[crease] = _fold(guides, edges, crease, inner, closed)
     curve = SmoothCurve.fitted(guides[seed], bisector, closed, 0.01 * amplitude)
-    return Target(guides, amplitude, closed, seed, curve, side, float(np.median(half)), widths, folds, 0, count - 1)
+    half_opening = float(np.median(half))
+    return Target(guides, amplitude, closed, seed, curve, side, half_opening, widths, folds, 0, count - 1)
 
 
 def resample(guides: np.ndarray, samples: int, closed: bool) -> np.ndarray:
@@ -123,7 +127,7 @@ def resample(guides: np.ndarray, samples: int, closed: bool) -> np.ndarray:
 
 
 def _across(guides: np.ndarray, edges: list, crease: int, neighbour: int, closed: bool) -> np.ndarray:
-    """Unit directions (3, faces) from edge midpoints of a crease to those of a neighbour, orthogonal to the edges."""
+    """Unit directions (3, faces) from edge midpoints of a crease to a neighbour's, across the edges."""
     towards = _midpoints(guides[neighbour], closed) - _midpoints(guides[crease], closed)
     return unit(towards - dot(towards, edges[crease]) * edges[crease])
 
