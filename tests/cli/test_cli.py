@@ -7,7 +7,7 @@ import pytest
 
 from plisse.cli.app import main
 from plisse.cli.make import FILES, write_files
-from plisse.cli.shipped import description, shipped_names
+from plisse.cli.shipped import description, find_design, shipped_names
 from plisse.io.fold import read_fold, write_fold
 from plisse.io.obj import read_obj, write_obj
 from plisse.recipe import Arc, Design, Pattern
@@ -174,6 +174,12 @@ def test_gallery_lists_every_design_with_a_sentence_and_copies_it(tmp_path, monk
     assert main(["gallery", "fig01d"]) == 1
     assert main(["gallery", "fig01d", "-o", "mine.toml"]) == 0
     assert (tmp_path / "mine.toml").read_bytes() == (tmp_path / "fig01d.toml").read_bytes()
+
+
+def test_the_directory_of_an_earlier_run_does_not_hide_the_gallery(tmp_path, monkeypatch):
+    (tmp_path / "fig01d").mkdir()
+    monkeypatch.chdir(tmp_path)
+    assert find_design("fig01d").name == "fig01d.toml"
 
 
 def test_similar_names_are_suggested(capsys):

@@ -10,6 +10,7 @@ from plisse.draw.layout import arrange
 from plisse.draw.preview import SIZE, write_preview
 from plisse.draw.raster import rasterise
 from plisse.draw.render import render
+from plisse.draw.table import table
 from plisse.structure.grid import grid
 from plisse.structure.pleated import PleatedStructure
 
@@ -106,3 +107,12 @@ def test_the_quality_scale_runs_from_pale_to_dark():
     colours = quality(np.linspace(0, 1, 20))
     assert (np.diff(colours.sum(axis=1)) < 0).all()
     assert rgb("#ff8000").tolist() == [1.0, 128 / 255, 0.0]
+
+
+def test_papers_throw_their_shadows_on_the_table():
+    loop = np.array([[600.0, 100], [900, 100], [900, 400], [600, 400]])
+    bare = table((1000, 500), np.zeros((1, 1)), np.zeros(2), [])
+    laid = table((1000, 500), np.ones((200, 200)), np.array([100.0, 200.0]), [loop])
+    darker = (bare - laid).sum(axis=-1)
+    assert bare.shape == (100, 200, 3) and darker.min() >= 0
+    assert darker[50, 150] > 0.05 and darker[55, 35] > 0.05 and darker[5, 5] < 1e-3

@@ -76,7 +76,7 @@ def test_planarity_of_a_hub_is_its_thickness_over_its_diameter():
     flat = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
     assert planarity_defect(HEXAGON, flat)[0] < 1e-15
     bent = flat + [0, 0, 0.1] * np.array([1, -1, 1, -1, 1, -1])[:, None]
-    assert planarity_defect(HEXAGON, bent)[0] == pytest.approx(0.1 / 2)
+    assert planarity_defect(HEXAGON, bent)[0] == pytest.approx(0.1 / np.sqrt(4.04))
 
 
 def test_angle_defect_of_a_cube_corner_and_of_a_saddle():
@@ -179,7 +179,7 @@ def test_faces_that_cut_through_each_other_are_found():
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
     upright = np.array([[0.5, 0.2, -1], [0.5, 0.8, -1], [0.5, 0.8, 1], [0.5, 0.2, 1]])
     assert len(intersecting_faces(topology, np.concatenate([square, upright]))) == 1
-    assert len(intersecting_faces(topology, np.concatenate([square, upright + [2, 0, 0]]))) == 0
+    assert len(intersecting_faces(topology, np.concatenate([square, upright + np.array([2, 0, 0])]))) == 0
 
 
 def test_a_development_beyond_a_full_turn_overlaps():
@@ -191,7 +191,7 @@ def test_a_development_beyond_a_full_turn_overlaps():
 def test_crease_deviation_ignores_sliding_along_guides():
     place = np.linspace(0, 1, 50)
     guide = np.stack([place, 0 * place, 0 * place], axis=1)
-    slid = guide + [0.013, 0, 0]
-    raised = guide + [0.013, 0.2, 0]
+    slid = guide + np.array([0.013, 0, 0])
+    raised = guide + np.array([0.013, 0.2, 0])
     deviation = crease_deviation(np.array([slid, raised]), np.array([guide, guide]))
     np.testing.assert_allclose(deviation, np.array([[0.0], [0.2]]) + np.zeros(50), atol=1e-15)

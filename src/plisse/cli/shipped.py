@@ -37,14 +37,17 @@ def description(name: str) -> str:
 
 
 def find_design(argument: str) -> Path:
-    """The design file meant by a path or a gallery name; raises InvalidDesign when there is neither."""
+    """The design file meant by a path or a gallery name; raises InvalidDesign when there is neither.
+
+    A directory of that name is no obstacle: `plisse make fig01d` makes one.
+    """
     path = Path(argument)
     if path.is_file():
         return path
-    if path.is_dir():
-        raise InvalidDesign(f"{argument} is a directory; give a design file or a name from `plisse gallery`")
     if argument in shipped_names():
         return shipped_design(argument)
+    if path.is_dir():
+        raise InvalidDesign(f"{argument} is a directory; give a design file or a name from `plisse gallery`")
     raise InvalidDesign(f"there is no file {argument} and no design of that name in the gallery; "
                         f"{_suggestion(path.stem)}")
 

@@ -10,6 +10,7 @@ from plisse.draw.drawing import crease_pattern
 from plisse.draw.layout import Layout, arrange, dense, turned
 from plisse.draw.render import Rendering, render
 from plisse.draw.runs import lettered_runs
+from plisse.draw.table import table
 from plisse.measure.planarity import planarity_defect
 from plisse.measure.sectors import angle_defect
 from plisse.recipe import MILLIMETRES
@@ -45,7 +46,12 @@ def write_preview(subject: Result | PleatedStructure, path: str | Path, *, title
     axes.set_xlim(0, SIZE[0])
     axes.set_ylim(0, SIZE[1])
     layout = _compose(axes, structure, units)
-    _caption(axes, structure, units, title, layout.reduction)
+    facts = _facts(structure, units, layout.reduction)
+    if isinstance(subject, Result) and subject.status != "exact":
+        facts.append(subject.status)
+    axes.text(MARGIN, 66, title or "", fontsize=11, color=colours.INK, va="center")
+    axes.text(SIZE[0] - MARGIN, 66, "   ·   ".join(facts), fontsize=7, color=colours.CAPTION, va="center",
+              ha="right")
     canvas.print_png(str(path), metadata={"Software": None}, pil_kwargs={"compress_level": 4})
 
 
@@ -57,7 +63,9 @@ def _compose(axes, structure: PleatedStructure, units: str) -> Layout:
                      np.array([MARGIN, CAPTION_BAND]), np.array(SIZE) - MARGIN)
     picture = render(structure, camera, layout.scale, RIM)
     placed = {} if sheet is None else _placed(sheet, layout)
-    _draw_ground(axes, picture, placed.get("boundary", []), layout)
+    ground = table(SIZE, picture.image[..., 3], layout.folded - RIM, placed.get("boundary", []))
+    axes.imshow(ground, origin="lower", interpolation="bilinear", aspect="auto", zorder=0,
+                extent=(0, SIZE[0], 0, SIZE[1]))
     _draw_folded(axes, picture, structure, layout.folded - RIM, _line_width(structure, layout.scale))
     if placed:
         _draw_sheet(axes, placed, _line_width(structure, layout.scale / layout.reduction, 0.35))
@@ -93,35 +101,6 @@ def _placed(sheet: dict[str, list[np.ndarray]], layout: Layout) -> dict[str, lis
     low = np.concatenate(on_page["boundary"]).min(axis=0)
     scale = layout.scale / layout.reduction
     return {name: [(line - low) * scale + layout.flat for line in lines] for name, lines in on_page.items()}
-
-
-def _draw_ground(axes, picture: Rendering, loops: list[np.ndarray], layout: Layout) -> None:
-    """The table: a soft fall of light and the shadows of both pieces of paper."""
-    from matplotlib.path import Path as Outline
-    from scipy.ndimage import gaussian_filter, shift
-
-    small = 5
-    width, height = SIZE[0] // small, SIZE[1] // small
-    y, x = np.mgrid[0:height, 0:width]
-    glow = np.exp(-(((x / width - 0.36) / 0.62) ** 2 + ((y / height - 0.72) / 0.75) ** 2))
-    mask = np.zeros((height, width))
-    _stamp(mask, picture.image[::small, ::small, 3], (layout.folded - RIM) / small)
-    shadow = 0.42 * gaussian_filter(shift(mask, (-7, 6), order=0), 7)
-    centres = (np.column_stack([x.ravel(), y.ravel()]) + 0.5) * small
-    lies = np.zeros((height, width), bool)
-    for loop in loops:
-        lies ^= Outline(loop[:: 1 + len(loop) // 600]).contains_points(centres).reshape(height, width)
-    shadow += 0.3 * gaussian_filter(shift(lies.astype(float), (-1, 1), order=0), 2)
-    dark = np.clip(shadow, 0, 1)[..., None] * (1 - colours.rgb(colours.SHADE))
-    light = (0.94 + 0.06 * glow)[..., None] * (1 - dark)
-    axes.imshow(np.clip(colours.rgb(colours.BACKGROUND) * light, 0, 1), extent=(0, SIZE[0], 0, SIZE[1]),
-                origin="lower", interpolation="bilinear", aspect="auto", zorder=0)
-
-
-def _stamp(target: np.ndarray, image: np.ndarray, corner: np.ndarray) -> None:
-    column, row = np.maximum(np.round(corner).astype(int), 0)
-    part = target[row:row + image.shape[0], column:column + image.shape[1]]
-    part[:] = image[:part.shape[0], :part.shape[1]]
 
 
 def _draw_folded(axes, picture: Rendering, structure: PleatedStructure, corner: np.ndarray,
@@ -169,15 +148,15 @@ def _lines(axes, lines: list[np.ndarray], colour: str, width: float, alpha: floa
                                        capstyle="round", joinstyle="round"))
 
 
-def _caption(axes, structure: PleatedStructure, units: str, title: str | None, reduction: int) -> None:
+def _facts(structure: PleatedStructure, units: str, reduction: int) -> list[str]:
+    """What the caption says: size, exactness, sheet."""
     topology, vertices = structure.topology, structure.vertices
     facts = [f"{topology.vertex_count:,} vertices",
              f"planarity {planarity_defect(topology, vertices).max():.0e}",
              f"angle defect {np.abs(angle_defect(topology, vertices)).max():.0e}"]
     if structure.development is not None:
-        width, height = np.ptp(structure.development, axis=0)
+        size = np.ptp(structure.development, axis=0)
+        width, height = (f"{x:.0f}" if x >= 100 else f"{x:.3g}" for x in size)
         drawn = f", drawn 1 : {reduction} to the fold" if reduction > 1 else ""
-        facts.append(f"sheet {width:.3g} × {height:.3g} {units}{drawn}")
-    axes.text(MARGIN, 66, title or "", fontsize=11, color=colours.INK, va="center")
-    axes.text(SIZE[0] - MARGIN, 66, "   ·   ".join(facts), fontsize=7, color=colours.CAPTION, va="center",
-              ha="right")
+        facts.append(f"sheet {width} × {height} {units}{drawn}")
+    return facts

@@ -112,6 +112,5 @@ def _solution(problem: Problem, at: Linearisation, gradient: np.ndarray, damping
 
 
 def _adapted(damping: float, gain: float) -> float:
-    """Less damping where the linear model was right, more where it promised too much."""
-    factor = 0.1 if gain > 0.75 else 1.0 if gain > 0.25 else 4.0
-    return max(damping * factor, LEAST_DAMPING)
+    """Less damping where the linear model was right, more where it promised too much (Nielsen's rule)."""
+    return max(damping * max(1 / 3, 1 - (2 * gain - 1) ** 3), LEAST_DAMPING)

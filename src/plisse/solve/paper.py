@@ -72,7 +72,7 @@ def solve_paper(topology: Topology, vertices: np.ndarray, guides: Guides, *,
     def renewed(blocks: Blocks) -> Problem:
         return problem.with_terms(functional.terms(blocks["vertices"].T))
 
-    found = levenberg_marquardt(problem, start, iterations=iterations, damping=1e-4, renew=renewed)
+    found = levenberg_marquardt(problem, start, iterations=iterations, damping=1e-2, renew=renewed)
     return PaperSolution(unit * found.blocks["vertices"].T, unit * found.blocks["development"].T,
                          found.blocks["normals"].T, found.history, found.iterations, found.factorisations,
                          found.status)
@@ -91,7 +91,8 @@ class _Functional:
         """All terms, with the feet and normals of E_close frozen at vertices (V, 3)."""
         plan, close, isom, fair, principal = self.weights
         terms = [*plane_fit(self.topology, plan), closeness(self.guides, vertices, close),
-                 *self._isometry(isom), fairness(self.topology, fair), constant_fold(self.topology, principal)]
+                 *self._isometry(isom), fairness(self.topology, fair),
+                 constant_fold(self.topology, principal)]
         return [term for term in terms if term.weight > 0 and term.count]
 
     def keys(self) -> dict[str, tuple[int, np.ndarray]]:
@@ -103,7 +104,7 @@ class _Functional:
         return {"vertices": (3, key), "development": (2, key[source]), "normals": (3, amid)}
 
     def _isometry(self, weight: float) -> list[Term]:
-        """E_isom between space and the opened development, and the angle sums that it misses along the cut."""
+        """E_isom between space and the opened development, and the angle sums it misses along the cut."""
         i, j = self.cut.topology.rods.T
         source = self.cut.source
         pairs = (Rows("vertices", source[i]), Rows("vertices", source[j]),

@@ -12,6 +12,7 @@ from plisse.geometry.components import cross, dot, unit
 
 __all__ = ["Strip", "edge_directions", "rulings_between", "successor"]
 
+_CONTINUATION = np.array([1.8, 0.0, -0.8, -0.6, 0.6])  # parabola through 5 equidistant values, one step further
 _STEEPEST_END = 0.1  # largest change of cot(ruling angle) from the last but one ruling to the free end ruling
 
 
@@ -61,16 +62,18 @@ def rulings_between(edges: np.ndarray, inward: np.ndarray, normals: np.ndarray, 
 
 
 def _with_ends(edges: np.ndarray, inward: np.ndarray, inner: np.ndarray) -> np.ndarray:
-    """Free rulings at both ends: cot(angle with the crease) continued linearly, in the end face's plane."""
-    first = _end_cotangent(edges[..., 1:5], inward[..., 1:5], inner[..., :4])
-    last = _end_cotangent(edges[..., -2:-6:-1], inward[..., -2:-6:-1], inner[..., :-5:-1])
+    """Free rulings at both ends, in the planes of the end faces; their angles continue those of the others."""
+    near = len(_CONTINUATION)
+    first = _end_cotangent(edges[..., 1:near + 1], inward[..., 1:near + 1], inner[..., :near])
+    back = slice(-2, -near - 2, -1)
+    last = _end_cotangent(edges[..., back], inward[..., back], inner[..., :-near - 1:-1])
     start = unit(first * edges[..., 0] + inward[..., 0])[..., None]
     end = unit(last * edges[..., -1] + inward[..., -1])[..., None]
     return np.concatenate([start, inner, end], axis=-1)
 
 
 def _end_cotangent(edges: np.ndarray, inward: np.ndarray, rulings: np.ndarray) -> np.ndarray:
-    """Cotangent (B,) at the end, from the rulings (3, B, k) next to it, nearest first."""
+    """Cotangent (B,) of the ruling angle at the end, from the rulings (3, B, 5) next to it, nearest first."""
     cotangent = dot(rulings, edges) / dot(rulings, inward)
-    slope = (cotangent[..., 0] - cotangent[..., -1]) / (cotangent.shape[-1] - 1)
-    return cotangent[..., 0] + np.clip(slope, -_STEEPEST_END, _STEEPEST_END)
+    nearest = cotangent[..., 0]
+    return nearest + np.clip(cotangent @ _CONTINUATION - nearest, -_STEEPEST_END, _STEEPEST_END)
