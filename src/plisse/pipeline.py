@@ -13,6 +13,7 @@ from plisse.io.designs import check_design, design_from_dict, read_design
 from plisse.layout.guiding import Guiding, guiding
 from plisse.result import Report, Result
 from plisse.solve.attempt import Start
+from plisse.solve.closed_form import closed_form
 from plisse.solve.cutting import best_cut
 from plisse.solve.flatten import flatten
 from plisse.solve.forecast import forecast
@@ -35,6 +36,8 @@ def design(recipe: Design | dict | str | Path, *, progress: Progress | None = No
     """
     recipe = _checked(recipe)
     watch = Stopwatch(progress)
+    if recipe.closed_form is not None:
+        return _in_closed_form(recipe, watch)
     watch.start("evolve", 0.0)
     try:
         guide = guiding(recipe)
@@ -61,6 +64,18 @@ def design(recipe: Design | dict | str | Path, *, progress: Progress | None = No
         warnings=guide.notes + (foreseen if report.status == "exact" and not best.is_comfortable else []),
         reasons=report.reasons + (foreseen if report.reasons else []), design=recipe.to_dict())
     return Result(recipe, report, best.start.pattern, zigzagged, structure)
+
+
+def _in_closed_form(recipe: Design, watch: Stopwatch) -> Result:
+    """A structure by formula: nothing is solved, only laid flat and measured."""
+    watch.start("construct", 0.0)
+    structure = closed_form(recipe.closed_form)
+    watch.start("flatten", 0.5)
+    structure = flatten(structure)
+    watch.start("measure", 0.8)
+    report = assess(structure, principal=True, units=recipe.units)
+    report = msgspec.structs.replace(report, method="closed form", seconds=watch.stop(), design=recipe.to_dict())
+    return Result(recipe, report, structure=structure)
 
 
 def _checked(recipe: Design | dict | str | Path) -> Design:

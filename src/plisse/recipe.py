@@ -8,7 +8,8 @@ from typing import Annotated, Literal
 import msgspec
 from msgspec import Meta
 
-__all__ = ["Arc", "Curve", "Design", "Ellipse", "Helix", "Pattern", "Points", "Solve", "Spline", "TorusKnot"]
+__all__ = ["MILLIMETRES", "Arc", "ClosedForm", "Cones", "ConicCreases", "Curve", "Design", "Ellipse", "Helix", "Miura",
+           "Pattern", "Points", "Solve", "Spline", "TorusKnot"]
 
 Length = Annotated[float, Meta(gt=0, description="a positive length in model units")]
 Inclination = Annotated[float, Meta(ge=0, lt=90, description="degrees from 0 up to, not including, 90")]
@@ -96,6 +97,48 @@ class Pattern(_Strict, kw_only=True):
     smoothing: Annotated[float, Meta(gt=0, le=1, description="a fraction of the curve's length")] | None = None
 
 
+class Cones(_Strict, tag_field="kind", tag="cones", kw_only=True):
+    """Alternating cones of equal slope: creases develop into concentric circles."""
+
+    creases: Annotated[int, Meta(ge=3, le=1000, description="a whole number from 3 to 1000")] = 8
+    samples: Annotated[int, Meta(ge=3, le=20_000, description="a whole number from 3 to 20000")] = 100
+    radius: Length = 100.0
+    width: Length = 6.0
+    slope: Annotated[float, Meta(gt=0, description="rise over run, above 0")] = 1.0
+    sector: Annotated[float, Meta(gt=0, le=360, description="degrees above 0, at most 360")] = 120.0
+
+
+class ConicCreases(_Strict, tag_field="kind", tag="conic-creases", kw_only=True):
+    """Cones whose creases develop into similar ellipses with shared foci, through the bounces of a billiard ball.
+
+    `size` is the half axis of the first ellipse, `growth` the ratio of successive ones, `fold` the fold angle of all
+    creases; vertices begin at the eccentric angle `start` and turn by about `step` degrees each.
+    """
+
+    creases: Annotated[int, Meta(ge=3, le=1000, description="a whole number from 3 to 1000")] = 9
+    samples: Annotated[int, Meta(ge=3, le=20_000, description="a whole number from 3 to 20000")] = 100
+    size: Length = 100.0
+    eccentricity: Annotated[float, Meta(ge=0, lt=0.95, description="a number from 0 below 0.95")] = 0.45
+    growth: Annotated[float, Meta(gt=1, le=2, description="a ratio above 1, at most 2")] = 1.1
+    fold: Annotated[float, Meta(gt=2, lt=178, description="degrees between 2 and 178")] = 70.0
+    start: Annotated[float, Meta(description="degrees")] = 60.0
+    step: Annotated[float, Meta(gt=0, lt=60, description="degrees above 0, below 60")] = 1.5
+
+
+class Miura(_Strict, tag_field="kind", tag="miura", kw_only=True):
+    """The Miura-ori with zigzag creases; `sector` and `fold` in degrees."""
+
+    creases: Annotated[int, Meta(ge=3, le=1000, description="a whole number from 3 to 1000")] = 7
+    samples: Annotated[int, Meta(ge=3, le=20_000, description="a whole number from 3 to 20000")] = 12
+    edge: Length = 10.0
+    ruling: Length = 12.0
+    sector: Annotated[float, Meta(gt=5, lt=90, description="degrees between 5 and 90")] = 65.0
+    fold: Annotated[float, Meta(gt=1, lt=89, description="degrees between 1 and 89")] = 50.0
+
+
+ClosedForm = Cones | ConicCreases | Miura
+
+
 class Solve(_Strict, kw_only=True):
     """How the zigzag becomes exact (§3.4)."""
 
@@ -109,16 +152,28 @@ class Solve(_Strict, kw_only=True):
 
 
 class Design(_Strict, kw_only=True):
-    """A whole recipe, as `report.json` repeats it with all defaults."""
+    """A whole recipe, as `report.json` repeats it with all defaults: curve and pattern, or a closed form."""
 
-    curve: Curve
-    pattern: Pattern
+    curve: Curve | None = None
+    pattern: Pattern | None = None
+    closed_form: ClosedForm | None = None
     solve: Solve = msgspec.field(default_factory=Solve)
     units: Annotated[Literal["mm", "cm", "m", "in", "ft"], Meta(description="mm, cm, m, in or ft")] = "mm"
 
     def to_dict(self) -> dict:
-        """Plain dictionaries and lists, as TOML or JSON would hold them."""
-        return msgspec.to_builtins(self)
+        """Plain dictionaries and lists, as TOML or JSON would hold them; keys that are not set are left out."""
+        return _without_none(msgspec.to_builtins(self))
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether the creases are closed curves."""
+        return self.curve is not None and self.curve.closed
+
+
+def _without_none(value):
+    if isinstance(value, dict):
+        return {key: _without_none(item) for key, item in value.items() if item is not None}
+    return value
 
 
 MILLIMETRES = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft": 304.8}

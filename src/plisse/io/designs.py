@@ -8,7 +8,7 @@ from pathlib import Path
 
 import msgspec
 
-from plisse.recipe import Curve, Design, Points, Spline
+from plisse.recipe import Arc, ClosedForm, Curve, Design, Ellipse, Helix, Pattern, Points, Solve, Spline, TorusKnot
 from plisse.errors import InvalidDesign
 from plisse.io.polylines import read_polyline
 
@@ -52,33 +52,51 @@ def design_from_dict(data: dict, base: str | Path = ".") -> Design:
 
 def check_design(design: Design) -> Design:
     """The same design; raises InvalidDesign where its numbers contradict each other."""
-    pattern = design.pattern
-    vertices = pattern.creases * pattern.samples
+    if design.closed_form is not None:
+        if design.curve is not None or design.pattern is not None:
+            raise InvalidDesign("a design has either closed_form or curve and pattern, but this one has both; remove one")
+        _check_size("closed_form", design.closed_form)
+        return design
+    if design.curve is None or design.pattern is None:
+        section = "curve" if design.curve is None else "pattern"
+        raise InvalidDesign(f"{section} is missing; add a [{section}] section, as `plisse gallery fig01d` shows")
+    _check_size("pattern", design.pattern)
+    _check_pattern(design.pattern)
+    if design.curve.closed and design.pattern.samples < 5:
+        raise InvalidDesign(f"pattern.samples is {design.pattern.samples}, too few for a closed curve; give at least 5")
+    if design.solve.cut is not None and not design.curve.closed:
+        raise InvalidDesign("solve.cut is set, but the curve is open and needs no cut; remove it or set curve.closed")
+    _check_curve(design.curve)
+    return design
+
+
+def _check_size(section: str, grid: Pattern | ClosedForm) -> None:
+    vertices = grid.creases * grid.samples
     if vertices > MAX_VERTICES:
-        raise InvalidDesign(f"pattern.creases × pattern.samples = {vertices} vertices is more than plisse solves "
-                            f"({MAX_VERTICES}, about a minute and 2 GB); lower pattern.samples")
+        raise InvalidDesign(f"{section}.creases × {section}.samples = {vertices} vertices is more than plisse solves "
+                            f"({MAX_VERTICES}, about a minute and 2 GB); lower {section}.samples")
+
+
+def _check_pattern(pattern: Pattern) -> None:
     if isinstance(pattern.theta, list) and len(pattern.theta) != pattern.creases:
         raise InvalidDesign(f"pattern.theta has {len(pattern.theta)} values, but pattern.creases is "
                             f"{pattern.creases}; give one value, or one per crease")
     _check_width(pattern.width, pattern.creases)
-    curve = design.curve
-    if curve.closed and pattern.samples < 5:
-        raise InvalidDesign(f"pattern.samples is {pattern.samples}, too few for a closed curve; give at least 5")
-    if design.solve.cut is not None and not curve.closed:
-        raise InvalidDesign("solve.cut is set, but the curve is open and needs no cut; remove it or set curve.closed")
+
+
+def _check_curve(curve: Curve) -> None:
     if isinstance(curve, Spline | Points):
         _check_points(curve)
-    elif curve.closed and getattr(curve, "angle", 360.0) < 360:
+    elif isinstance(curve, Helix) and curve.closed:
+        raise InvalidDesign("curve.closed is true, but a helix never closes; set curve.closed = false")
+    elif isinstance(curve, Arc | Ellipse) and curve.closed and curve.angle < 360:
         raise InvalidDesign(f"curve.angle is {curve.angle} degrees, but curve.closed asks for a closed curve; "
                             "set curve.closed = false or curve.angle = 360")
-    elif curve.closed and hasattr(curve, "turns"):
-        raise InvalidDesign("curve.closed is true, but a helix never closes; set curve.closed = false")
-    if hasattr(curve, "rz") and math.gcd(curve.p, curve.q) != 1:
+    elif isinstance(curve, TorusKnot) and math.gcd(curve.p, curve.q) != 1:
         raise InvalidDesign(f"curve.p = {curve.p} and curve.q = {curve.q} have a common divisor, so the torus knot "
                             "would run over itself; give numbers without one")
-    if hasattr(curve, "rz") and curve.r >= curve.R:
+    elif isinstance(curve, TorusKnot) and curve.r >= curve.R:
         raise InvalidDesign(f"curve.r = {curve.r} is not smaller than curve.R = {curve.R}; give a thinner tube")
-    return design
 
 
 def parse_assignment(text: str) -> tuple[list[str], object]:
@@ -184,25 +202,34 @@ def _sentence(message: str, data: dict) -> str:
     return f"{path or 'the design'}: {what}{shown}" + (f"; give {hint}" if hint else "")
 
 
+SECTIONS = {"": Design, "pattern": Pattern, "solve": Solve}
+KINDS = {"curve": Curve, "closed_form": ClosedForm}
+
+
 def _struct_at(path: str, data: dict) -> type | None:
     section = path.split(".")[0].split("[")[0]
-    if section != "curve":
-        return {"": Design, "pattern": Design.__annotations__["pattern"], "solve": Design.__annotations__["solve"]}.get(section)
-    kind = data.get("curve", {}).get("kind") if isinstance(data.get("curve"), dict) else None
-    return next((c for c in Curve.__args__ if c.__struct_config__.tag == kind), None)
+    if section not in KINDS:
+        return SECTIONS.get(section)
+    entry = data.get(section)
+    kind = entry.get("kind") if isinstance(entry, dict) else None
+    return next((c for c in KINDS[section].__args__ if c.__struct_config__.tag == kind), None)
 
 
 def _known_keys(path: str, data: dict) -> list[str]:
     struct = _struct_at(path, data)
     if struct is None:
-        return [str(c.__struct_config__.tag) for c in Curve.__args__]
-    return (["kind"] if path == "curve" else []) + [field.name for field in msgspec.structs.fields(struct)]
+        return _kinds(path)
+    return (["kind"] if path in KINDS else []) + [field.name for field in msgspec.structs.fields(struct)]
+
+
+def _kinds(path: str) -> list[str]:
+    return [str(c.__struct_config__.tag) for c in KINDS[path.split(".")[0]].__args__]
 
 
 def _hint(path: str, data: dict) -> str:
     """What the key wants, from the description that its type carries."""
-    if path in ("curve", "curve.kind"):
-        return "kind = one of " + ", ".join(str(c.__struct_config__.tag) for c in Curve.__args__)
+    if path.removesuffix(".kind") in KINDS:
+        return "kind = one of " + ", ".join(_kinds(path))
     section, _, key = re.sub(r"\[.*", "", path).partition(".")
     struct = _struct_at(section if key else "", data)
     if struct is None:
