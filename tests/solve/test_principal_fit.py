@@ -20,7 +20,7 @@ def ring(samples):
     return 100 * np.stack([np.cos(t), 0.9 * np.sin(t), 0.04 * np.cos(2 * t + 0.3)], axis=1)
 
 
-def numbers(creases, sign, direction=np.pi / 2):
+def numbers(creases, sign, direction=np.nan):
     fold = np.pi - 2 * HALF
     trios = [[5 + 0.1 * k, direction, sign * fold * (-1) ** k] for k in range(creases)]
     return np.array(trios)
@@ -107,7 +107,7 @@ def test_closed_fits_recover_a_closed_march():
 def test_free_rims_are_smooth():
     rims = fit_principal(zigzag(121), AMPLITUDE).vertices[[0, -1]]
     lengths = np.linalg.norm(np.diff(rims, axis=1), axis=-1)
-    assert np.abs(np.diff(lengths, n=2, axis=1)).max() < 0.01 * lengths.mean()
+    assert np.abs(np.diff(lengths, n=2, axis=1)).max() < 0.02 * lengths.mean()
 
 
 def test_creases_have_no_checkerboard():

@@ -187,7 +187,7 @@ def _sentence(message: str, data: dict) -> str:
     """One sentence from a validation message `what - at `$.path``."""
     what, _, where = message.partition(" - at `$")
     path = where.rstrip("`").lstrip(".").removesuffix("[...]")
-    what = what[0].lower() + what[1:]
+    what = what[0].lower() + what[1:].replace(" | null", "")
     if match := re.match(r"object contains unknown field `(.*)`", what):
         key = f"{path}.{match[1]}" if path else match[1]
         known = _known_keys(path, data)

@@ -13,7 +13,7 @@ __all__ = ["EXACT", "Verdict", "judge"]
 
 EXACT = 1e-9
 COMFORTABLE_SECTOR = np.radians(15.0)
-FAR = 3.0
+NEAR, FAR = 1.5, 3.0
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Verdict:
     @property
     def is_comfortable(self) -> bool:
         """So good that no other way needs to be tried."""
-        return self.is_good and self.regularity.min_sector > COMFORTABLE_SECTOR and self.deviation < 2
+        return self.is_good and self.regularity.min_sector > COMFORTABLE_SECTOR and self.deviation < NEAR
 
     @property
     def rank(self) -> tuple:

@@ -18,14 +18,14 @@ from plisse.solve.energies.angle_sum import angle_sum
 from plisse.solve.energies.kernel import Rows, Term
 from plisse.solve.energies.length import equal_length, given_length
 from plisse.solve.flatten import unfold
-from plisse.solve.levenberg import Status, levenberg_marquardt
+from plisse.solve.levenberg import Minimum, Status, levenberg_marquardt
 from plisse.solve.problem import Blocks, Problem
 from plisse.structure.cut import Cut, uncut
 from plisse.structure.topology import Topology
 
 __all__ = ["PaperSolution", "paper_weights", "quasi_unfolding", "solve_paper"]
 
-UNFOLDING_STEPS = 60
+UNFOLDING_STEPS = 100
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,15 +122,15 @@ def quasi_unfolding(cut: Cut, vertices: np.ndarray) -> np.ndarray:
     """Stage 1: the development (V', 2) as isometric as possible to vertices (V, 3), from a square grid.
 
     Faces are unfolded one after another instead where the topology is no part of a grid, or where the grid
-    gets caught in a development with overturned faces.
+    gets caught in a development with overturned faces or does not settle.
     """
     topology, space = cut.topology, vertices[cut.source]
     squares = square_grid(topology)
     if squares is not None:
-        flat = _most_isometric(topology, space, squares * _mean_edge(topology, space))
-        if _turned_over(topology, flat) == 0:
-            return flat
-    return _most_isometric(topology, space, unfold(topology, space))
+        found = _most_isometric(topology, space, squares * _mean_edge(topology, space))
+        if found.status is not Status.EXHAUSTED and _turned_over(topology, found.blocks["flat"].T) == 0:
+            return found.blocks["flat"].T
+    return _most_isometric(topology, space, unfold(topology, space)).blocks["flat"].T
 
 
 def square_grid(topology: Topology) -> np.ndarray | None:
@@ -152,16 +152,15 @@ def square_grid(topology: Topology) -> np.ndarray | None:
     return place if np.array_equal(place[head] - place[tail], move) else None
 
 
-def _most_isometric(topology: Topology, space: np.ndarray, flat: np.ndarray) -> np.ndarray:
-    """The development (V', 2) that minimises E_isom for fixed vertices."""
+def _most_isometric(topology: Topology, space: np.ndarray, flat: np.ndarray) -> Minimum:
+    """The development, block `flat` (2, V'), that minimises E_isom for fixed vertices."""
     i, j = topology.rods.T
     key = np.arange(topology.vertex_count) if topology.ordering is None else topology.ordering
     square = dot(space[i] - space[j], space[i] - space[j])
     term = Term("isometry", given_length, (Rows("flat", i), Rows("flat", j)), 1.0, {"square": square})
     problem = Problem([term], {"flat": (2, key)})
-    found = levenberg_marquardt(problem, {"flat": flat.T}, iterations=UNFOLDING_STEPS, damping=1.0,
-                                tolerance=1e-6)
-    return found.blocks["flat"].T
+    return levenberg_marquardt(problem, {"flat": flat.T}, iterations=UNFOLDING_STEPS, damping=1e-2,
+                               tolerance=1e-6)
 
 
 def _turned_over(topology: Topology, flat: np.ndarray) -> int:

@@ -7,6 +7,7 @@ from plisse.measure.deviation import crease_deviation
 from plisse.measure.verdict import Verdict, judge
 from plisse.solve.attempt import Attempt, Start
 from plisse.solve.coarse_to_fine import CoarseToFine
+from plisse.solve.explicit import constructed
 
 __all__ = ["GENERAL", "PRINCIPAL", "Judged", "Outcome", "solve"]
 
@@ -17,7 +18,7 @@ OPTIMISED = CoarseToFine("optimised")
 GENTLE = CoarseToFine("optimised in small steps", columns=60, steps=2, fairness=STIFF)
 
 GENERAL: tuple[Way, ...] = (OPTIMISED, GENTLE)
-PRINCIPAL: tuple[Way, ...] = (OPTIMISED, GENTLE)
+PRINCIPAL: tuple[Way, ...] = (OPTIMISED, constructed, GENTLE)
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from plisse.errors import Infeasible
-from plisse.geometry.components import cross, unit
+from plisse.geometry.components import cross, dot, norm, unit
 from plisse.solve.principal.closed import close_crease, closed_crease
 from plisse.solve.principal.march import next_crease
 from plisse.solve.principal.seed import rectifying_binormals, seed_strip
@@ -19,13 +19,13 @@ def march_structure(seed: np.ndarray, half_opening: np.ndarray | float, after: n
                     reference: np.ndarray | None = None) -> np.ndarray:
     """Vertices (m, n, 3) of the principal structure through an open seed polyline (n, 3).
 
-    `after` (k, 3) has distance t, direction β and signed fold angle φ of the creases after the seed,
-    outwards, each prescribed in the middle; `before` those on the other side. Each side ends with a free
-    rim at the distances `rims` (before, after; by default the last t). For pleats φ alternates, beginning
-    negative after and positive before the seed, whose own fold angle is π − 2 half_opening. Everything
-    may carry a batch axis in front: seed (B, n, 3) or (n, 3), half_opening (B,), after and before (B, k,
-    3), and the vertices are (B, m, n, 3). `reference` (3,) says on which side of the seed the strips lie;
-    by default its mean binormal.
+    `after` (k, 3) has distance t, direction β and signed fold angle φ of the creases after the seed, outwards,
+    each prescribed in the middle; a β of nan means parallel to the crease before. `before` has those on the
+    other side. Each side ends with a free rim at the distances `rims` (before, after; by default the last t).
+    For pleats φ alternates, beginning negative after and positive before the seed, whose own fold angle is
+    π − 2 half_opening. Everything may carry a batch axis in front: seed (B, n, 3) or (n, 3), half_opening (B,),
+    after and before (B, k, 3), and the vertices are (B, m, n, 3).
+    `reference` (3,) says on which side of the seed the strips lie; by default its mean binormal.
     """
     return _structure(seed, half_opening, after, before, rims, reference, False)
 
@@ -58,7 +58,8 @@ def _structure(seed, half_opening, after, before, rims, reference, closed: bool)
 def _march(strip: Strip, trios: np.ndarray, rim: float | None, closed: bool) -> list[np.ndarray]:
     """Creases (3, B, n) with numbers (B, k, 3) on one side, then the rim; none without numbers and rim."""
     creases: list[np.ndarray] = []
-    for distance, direction, fold in trios.transpose(1, 2, 0):
+    for distance, given, fold in trios.transpose(1, 2, 0):
+        direction = np.where(np.isnan(given), _parallel(strip, closed), given)
         if closed:
             guess = np.stack([direction, fold], axis=-1)
             closing, gap = close_crease(strip, distance, guess)
@@ -74,6 +75,14 @@ def _march(strip: Strip, trios: np.ndarray, rim: float | None, closed: bool) -> 
     if reach is not None:
         creases.append(strip.points + reach[:, None] * strip.rulings)
     return creases
+
+
+def _parallel(strip: Strip, closed: bool) -> np.ndarray:
+    """Direction β (B,) of a crease parallel to the strip's, where numbers are prescribed."""
+    vertex = 0 if closed else strip.points.shape[-1] // 2
+    along = unit(strip.edges[..., vertex - 1] + strip.edges[..., vertex])
+    ruling = strip.rulings[..., vertex]
+    return np.pi - np.arctan2(norm(cross(ruling, along)), dot(ruling, along))
 
 
 def _batched(seed: np.ndarray, half_opening, sides: tuple) -> tuple[np.ndarray, np.ndarray, list[np.ndarray]]:
