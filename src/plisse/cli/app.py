@@ -4,6 +4,7 @@
 interrupted.
 """
 
+import os
 import sys
 from collections.abc import Sequence
 
@@ -36,6 +37,8 @@ app.command(gallery)
 
 def main(tokens: Sequence[str] | None = None) -> int:
     """Exit code of one command; what a user can mend is said in one line on stderr."""
+    for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
+        os.environ.setdefault(name, "1")  # narrow bands: a second thread only waits (numpy is not imported yet)
     try:
         code = app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
     except cyclopts.CycloptsError as error:

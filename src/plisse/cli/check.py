@@ -18,12 +18,14 @@ def check(file: Path, /, *, json: Annotated[bool, Parameter(negative=())] = Fals
     json
         Print the numbers as JSON.
     """
-    from plisse.cli.console import show_findings
-    from plisse.cli.findings import findings, findings_json, read_structure
+    from plisse.assess import assess
+    from plisse.cli.console import show_check
+    from plisse.io.report import report_json
+    from plisse.io.structures import read_structure
 
-    found = findings(read_structure(file))
+    report = assess(read_structure(file))
     if json:
-        print(findings_json(found), end="")
+        print(report_json(report), end="")
     else:
-        show_findings(found, title=file.name)
-    return 0 if found.status == "exact" else 3
+        show_check(report, title=file.name)
+    return 0 if report.status == "exact" else 3

@@ -12,10 +12,9 @@ from rich.table import Table
 from rich.text import Text
 
 if TYPE_CHECKING:
-    from plisse.cli.findings import Findings
     from plisse.result import Interval, Report
 
-__all__ = ["list_designs", "progress", "show_findings", "summarise"]
+__all__ = ["list_designs", "progress", "show_check", "summarise"]
 
 STYLES = {"exact": "bold green", "approximate": "bold yellow", "infeasible": "bold red"}
 
@@ -37,8 +36,31 @@ def progress(quiet: bool) -> Iterator[Callable[[str, float], None]]:
 
 def summarise(report: Report, directory: Path, *, title: str) -> None:
     """Print status, numbers, reasons and files of a finished design."""
+    rows = _measures(report)
+    if report.crease_deviation is not None:
+        rows.append(("distance from guides", f"max {report.crease_deviation.max:.2f}   "
+                                             f"mean {report.crease_deviation.mean:.2f} amplitudes"))
+    if report.development is not None:
+        width, height = report.development.size_mm
+        note = ", overlaps itself" if report.development.overlaps else ""
+        rows.append(("sheet", f"{width:.1f} × {height:.1f} mm{note}"))
+    rows.append(("seconds", f"{report.seconds.get('total', 0.0):.2f}"))
+    rows.append(("files", str(directory)))
+    _panel(title, report.status, rows, report.reasons + report.warnings)
+
+
+def show_check(report: Report, *, title: str) -> None:
+    """Print verdict, numbers and reasons of a checked mesh."""
+    rows = _measures(report)
+    rows.append(("principal (folds flat)", "yes" if report.principal else "no"))
+    rows.append(("faces folded over", str(report.inverted_faces)))
+    rows.append(("self-intersections", str(report.self_intersections)))
+    _panel(title, report.status, rows, report.reasons)
+
+
+def _measures(report: Report) -> list[tuple[str, str]]:
     rows = [("vertices, faces", f"{report.vertices:,}, {report.faces:,}")]
-    for name in ("planarity", "angle_defect", "principal_defect", "crease_deviation"):
+    for name in ("planarity", "angle_defect", "principal_defect"):
         spread = getattr(report, name)
         if spread is not None:
             rows.append((name.replace("_", " "), f"max {spread.max:.1e}   mean {spread.mean:.1e}"))
@@ -46,27 +68,7 @@ def summarise(report: Report, directory: Path, *, title: str) -> None:
         rows.append(("smallest sector angle", f"{report.min_sector_angle_deg:.1f}°"))
     if report.opening_angle_deg is not None:
         rows.append(("opening angles", _range(report.opening_angle_deg)))
-    if report.development is not None:
-        width, height = report.development.size_mm
-        note = ", overlaps itself" if report.development.overlaps else ""
-        rows.append(("sheet", f"{width:.1f} × {height:.1f} mm{note}"))
-    rows.append(("seconds", f"{report.seconds.get('total', 0.0):.2f}"))
-    rows.append(("files", str(directory)))
-    _panel(title, report.status, rows, report.reasons)
-
-
-def show_findings(found: Findings, *, title: str) -> None:
-    """Print verdict, numbers and reasons of a checked mesh."""
-    rows = [("vertices, faces", f"{found.vertices:,}, {found.faces:,}")]
-    for name in ("planarity", "angle_defect", "principal_defect"):
-        spread = getattr(found, name)
-        rows.append((name.replace("_", " "), f"max {spread.max:.1e}   mean {spread.mean:.1e}"))
-    rows.append(("principal (folds flat)", "yes" if found.principal else "no"))
-    rows.append(("smallest sector angle", f"{found.min_sector_angle_deg:.1f}°"))
-    rows.append(("opening angles", _range(found.opening_angle_deg)))
-    rows.append(("faces folded over", str(found.inverted_faces)))
-    rows.append(("self-intersections", str(found.self_intersections)))
-    _panel(title, found.status, rows, found.reasons)
+    return rows
 
 
 def list_designs(descriptions: dict[str, str]) -> None:

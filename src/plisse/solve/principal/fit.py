@@ -26,7 +26,7 @@ _ENOUGH = 2  # attempts after which a regular structure is taken although it is 
 _HOPELESS = 4.0  # amplitudes: an irregular coarse fit farther off is given up
 _LADDER = (61, 121)  # samples per crease at which the numbers are fitted first
 _DRIFT = 0.02  # amplitudes by which the deviation may grow from one resolution to the next without a new fit
-_OPEN_TERMS, _CLOSED_TERMS = 8, 9
+_OPEN_TERMS, _CLOSED_TERMS = 12, 9
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ def fit_principal(guides: np.ndarray, amplitude: float, *, closed: bool = False,
 
 
 def fit_candidates(guides: np.ndarray, amplitude: float, *, closed: bool = False, terms: int | None = None,
-                   stiffness: float = 0.02) -> Iterator[PrincipalFit]:
+                   stiffness: float = 0.002) -> Iterator[PrincipalFit]:
     """Exact attempts along guides (m, n, 3), cheap ones first: at once, progressively, from other seeds.
 
     Attempts that are hopeless on few samples are not refined; if all are, the least bad one is the only
