@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from plisse.recipe import Design
     from plisse.pipeline import design
+    from plisse.recipe import Design
     from plisse.result import Report, Result
     from plisse.structure.pleated import PleatedStructure
 

@@ -97,7 +97,8 @@ def _irregular(structure: PleatedStructure, found: Measurements) -> list[str]:
 
 def _unfolded(structure: PleatedStructure, found: Measurements) -> list[str]:
     """Creases that are folded shut, or no fold at all."""
-    edges, out = structure.topology.edges, []
+    edges = structure.topology.edges
+    out: list[str] = []
     if not found.openings.size:
         return out
     first = edges.vertices[edges.is_crease & ~edges.is_boundary, 0]

@@ -7,16 +7,18 @@ import msgspec
 import numpy as np
 
 from plisse.assess import assess, start_defects
-from plisse.recipe import Design
 from plisse.errors import Infeasible
 from plisse.io.designs import check_design, design_from_dict, read_design
 from plisse.layout.guiding import Guiding, guiding
+from plisse.recipe import Design
 from plisse.result import Report, Result
 from plisse.solve.attempt import Start
 from plisse.solve.closed_form import closed_form
 from plisse.solve.cutting import best_cut
-from plisse.solve.flatten import flatten
+from plisse.solve.energies import Guides
+from plisse.solve.flatten import flatten, laid_out
 from plisse.solve.forecast import forecast
+from plisse.solve.paper import solve_paper
 from plisse.solve.portfolio import GENERAL, PRINCIPAL, Outcome, solve
 from plisse.solve.zigzag import zigzag
 from plisse.stopwatch import Stopwatch
@@ -37,45 +39,70 @@ def design(recipe: Design | dict | str | Path, *, progress: Progress | None = No
     recipe = _checked(recipe)
     watch = Stopwatch(progress)
     if recipe.closed_form is not None:
-        return _in_closed_form(recipe, watch)
+        return _by_formula(recipe, watch)
+    assert recipe.curve is not None  # a checked recipe without closed form has both
+    assert recipe.pattern is not None
     watch.start("evolve", 0.0)
     try:
-        guide = guiding(recipe)
+        guide = guiding(recipe.curve, recipe.pattern)
     except Infeasible as error:
-        return _broken_down(recipe, str(error), watch)
+        return _broken_down(recipe, [str(error)], watch)
     watch.start("solve", 0.2)
-    zigzagged = zigzag(guide.pattern.resampled(guide.samples), recipe.pattern.amplitude)
-    foreseen = forecast(guide.pattern, recipe.pattern.amplitude, recipe.solve.principal).warnings()
-    if recipe.solve.method == "paper":
-        return _by_the_paper(recipe, guide, zigzagged, foreseen, watch)
-    outcome = solve(_starts(recipe, guide), PRINCIPAL if recipe.solve.principal else GENERAL)
-    best = outcome.best
-    if best.attempt.vertices is None:
-        return _broken_down(recipe, best.attempt.message, watch, guide, zigzagged, foreseen)
-    watch.start("flatten", 0.6)
-    structure = PleatedStructure(best.start.topology, best.attempt.vertices)
-    structure = flatten(structure, best_cut(structure, recipe.solve.cut))
-    watch.start("measure", 0.8)
-    report = assess(structure, principal=recipe.solve.principal, guides=best.start.guides(guide.samples),
-                    amplitude=recipe.pattern.amplitude, units=recipe.units)
-    report = msgspec.structs.replace(
-        report, start=start_defects(zigzagged), iterations=best.attempt.iterations, method=best.attempt.method,
-        history=[float(value) for value in best.attempt.history], tried=_said_of(outcome), seconds=watch.stop(),
-        warnings=guide.notes + (foreseen if report.status == "exact" and not best.is_comfortable else []),
-        reasons=report.reasons + (foreseen if report.reasons else []), design=recipe.to_dict())
-    return Result(recipe, report, best.start.pattern, zigzagged, structure)
+    zigzagged = zigzag(guide.pattern.resampled(guide.samples), guide.amplitude)
+    return (_by_the_paper if recipe.solve.method == "paper" else _exactly)(recipe, guide, zigzagged, watch)
 
 
-def _in_closed_form(recipe: Design, watch: Stopwatch) -> Result:
-    """A structure by formula: nothing is solved, only laid flat and measured."""
+def _by_formula(recipe: Design, watch: Stopwatch) -> Result:
+    """A structure in closed form: nothing is solved, only laid flat and measured."""
     watch.start("construct", 0.0)
     structure = closed_form(recipe.closed_form)
     watch.start("flatten", 0.5)
-    structure = flatten(structure)
+    structure = flatten(structure, best_cut(structure, recipe.solve.cut))
     watch.start("measure", 0.8)
     report = assess(structure, principal=True, units=recipe.units)
     report = msgspec.structs.replace(report, method="closed form", seconds=watch.stop(), design=recipe.to_dict())
     return Result(recipe, report, structure=structure)
+
+
+def _exactly(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, watch: Stopwatch) -> Result:
+    """The best of the portfolio, to machine precision where the geometry allows it."""
+    foreseen = forecast(guide.pattern, guide.amplitude, recipe.solve.principal).warnings()
+    outcome = solve(_starts(recipe, guide), PRINCIPAL if recipe.solve.principal else GENERAL)
+    best = outcome.best
+    if best.attempt.vertices is None:
+        return _broken_down(recipe, [best.attempt.message, *foreseen], watch, guide, zigzagged)
+    watch.start("flatten", 0.6)
+    structure = PleatedStructure(best.start.topology, best.attempt.vertices)
+    structure = flatten(structure, best_cut(structure, recipe.solve.cut))
+    report = _measured(recipe, guide, zigzagged, structure, watch)
+    report = msgspec.structs.replace(
+        report, iterations=best.attempt.iterations, method=best.attempt.method, tried=_said_of(outcome),
+        history=[float(value) for value in best.attempt.history],
+        warnings=guide.notes + (foreseen if report.status == "exact" and not best.is_comfortable else []),
+        reasons=report.reasons + (foreseen if report.reasons else []))
+    return Result(recipe, report, best.start.pattern, zigzagged, structure)
+
+
+def _by_the_paper(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, watch: Stopwatch) -> Result:
+    """Functional (5) as printed (§3.4); it ends near 1e-4, so its status is seldom exact."""
+    topology, binormals = zigzagged.topology, guide.pattern.resampled(guide.samples).binormals.reshape(-1, 3)
+    cut = best_cut(zigzagged, recipe.solve.cut)
+    found = solve_paper(topology, zigzagged.vertices, Guides.along_creases(topology, zigzagged.vertices, binormals),
+                        weights=recipe.solve.weights, iterations=recipe.solve.iterations, cut=cut,
+                        principal=recipe.solve.principal)
+    structure = PleatedStructure(topology, found.vertices, cut, laid_out(cut.topology, found.development))
+    report = msgspec.structs.replace(
+        _measured(recipe, guide, zigzagged, structure, watch), iterations=found.iterations, method="paper",
+        history=[float(value) for value in found.history], warnings=guide.notes)
+    return Result(recipe, report, guide.pattern, zigzagged, structure)
+
+
+def _measured(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, structure: PleatedStructure,
+              watch: Stopwatch) -> Report:
+    watch.start("measure", 0.8)
+    report = assess(structure, principal=recipe.solve.principal, guides=zigzagged.vertices.reshape(-1, guide.samples, 3),
+                    amplitude=guide.amplitude, units=recipe.units)
+    return msgspec.structs.replace(report, start=start_defects(zigzagged), seconds=watch.stop(), design=recipe.to_dict())
 
 
 def _checked(recipe: Design | dict | str | Path) -> Design:
@@ -86,11 +113,13 @@ def _checked(recipe: Design | dict | str | Path) -> Design:
 
 def _starts(recipe: Design, guide: Guiding) -> Iterator[Start]:
     """The pattern as designed, then patterns whose binormals are smoothed more or less."""
-    amplitude, principal = recipe.pattern.amplitude, recipe.solve.principal
+    assert recipe.curve is not None
+    assert recipe.pattern is not None
+    amplitude, principal = guide.amplitude, recipe.solve.principal
     yield Start(guide.pattern, amplitude, guide.samples, principal)
     for factor in (0.5, 2.0):
         try:
-            other = guiding(recipe, smoothing_factor=factor)
+            other = guiding(recipe.curve, recipe.pattern, smoothing_factor=factor)
         except Infeasible:
             continue
         yield Start(other.pattern, amplitude, other.samples, principal, f"binormals smoothed {factor:g} times as far")
@@ -110,8 +139,8 @@ def _said_of(outcome: Outcome) -> list[str]:
     return lines
 
 
-def _broken_down(recipe: Design, reason: str, watch: Stopwatch, guide: Guiding | None = None,
-                 zigzagged: PleatedStructure | None = None, foreseen: list[str] | None = None) -> Result:
-    report = Report(status="infeasible", reasons=[reason, *(foreseen or [])], seconds=watch.stop(),
-                    units=recipe.units, design=recipe.to_dict())
+def _broken_down(recipe: Design, reasons: list[str], watch: Stopwatch, guide: Guiding | None = None,
+                 zigzagged: PleatedStructure | None = None) -> Result:
+    report = Report(status="infeasible", reasons=reasons, seconds=watch.stop(), units=recipe.units,
+                    design=recipe.to_dict())
     return Result(recipe, report, guide.pattern if guide else None, zigzagged)

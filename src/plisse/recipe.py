@@ -20,7 +20,7 @@ class _Strict(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=T
     pass
 
 
-class Arc(_Strict, tag_field="kind", tag="arc", kw_only=True):
+class Arc(_Strict, tag_field="kind", tag="arc", kw_only=True, frozen=True):
     """Circular arc of `radius` about the z axis through `angle` degrees, symmetric about the x axis."""
 
     radius: Length
@@ -28,7 +28,7 @@ class Arc(_Strict, tag_field="kind", tag="arc", kw_only=True):
     closed: bool = False
 
 
-class Helix(_Strict, tag_field="kind", tag="helix", kw_only=True):
+class Helix(_Strict, tag_field="kind", tag="helix", kw_only=True, frozen=True):
     """Helix about the z axis; `pitch` is the rise per turn."""
 
     radius: Length
@@ -37,7 +37,7 @@ class Helix(_Strict, tag_field="kind", tag="helix", kw_only=True):
     closed: bool = False
 
 
-class Ellipse(_Strict, tag_field="kind", tag="ellipse", kw_only=True):
+class Ellipse(_Strict, tag_field="kind", tag="ellipse", kw_only=True, frozen=True):
     """Ellipse in the xy plane with half axes a and b, closed unless `angle` < 360 degrees of its parameter."""
 
     a: Length
@@ -46,7 +46,7 @@ class Ellipse(_Strict, tag_field="kind", tag="ellipse", kw_only=True):
     closed: bool = True
 
 
-class TorusKnot(_Strict, tag_field="kind", tag="torus-knot", kw_only=True):
+class TorusKnot(_Strict, tag_field="kind", tag="torus-knot", kw_only=True, frozen=True):
     """(p, q) torus knot: p times around the axis at radius R, q times around the tube of radius r.
 
     `rz` is the tube's half height where it differs from r.
@@ -60,7 +60,7 @@ class TorusKnot(_Strict, tag_field="kind", tag="torus-knot", kw_only=True):
     closed: bool = True
 
 
-class Spline(_Strict, tag_field="kind", tag="spline", kw_only=True):
+class Spline(_Strict, tag_field="kind", tag="spline", kw_only=True, frozen=True):
     """Quintic spline that interpolates the points; `file` (.csv .txt .npy .obj) stands for `points`."""
 
     points: Annotated[list[Point], Meta(description="a list of points [x, y, z]")] | None = None
@@ -68,7 +68,7 @@ class Spline(_Strict, tag_field="kind", tag="spline", kw_only=True):
     closed: bool = False
 
 
-class Points(_Strict, tag_field="kind", tag="points", kw_only=True):
+class Points(_Strict, tag_field="kind", tag="points", kw_only=True, frozen=True):
     """A measured polyline, smoothed over the length `smooth` (0: interpolated)."""
 
     points: Annotated[list[Point], Meta(description="a list of points [x, y, z]")] | None = None
@@ -80,7 +80,7 @@ class Points(_Strict, tag_field="kind", tag="points", kw_only=True):
 Curve = Arc | Helix | Ellipse | TorusKnot | Spline | Points
 
 
-class Pattern(_Strict, kw_only=True):
+class Pattern(_Strict, kw_only=True, frozen=True):
     """The guiding curves and how far the zigzag leaves them (§3.2, §3.3)."""
 
     theta: Annotated[Inclination | list[Inclination],
@@ -97,7 +97,7 @@ class Pattern(_Strict, kw_only=True):
     smoothing: Annotated[float, Meta(gt=0, le=1, description="a fraction of the curve's length")] | None = None
 
 
-class Cones(_Strict, tag_field="kind", tag="cones", kw_only=True):
+class Cones(_Strict, tag_field="kind", tag="cones", kw_only=True, frozen=True):
     """Alternating cones of equal slope: creases develop into concentric circles."""
 
     creases: Annotated[int, Meta(ge=3, le=1000, description="a whole number from 3 to 1000")] = 8
@@ -108,7 +108,7 @@ class Cones(_Strict, tag_field="kind", tag="cones", kw_only=True):
     sector: Annotated[float, Meta(gt=0, le=360, description="degrees above 0, at most 360")] = 120.0
 
 
-class ConicCreases(_Strict, tag_field="kind", tag="conic-creases", kw_only=True):
+class ConicCreases(_Strict, tag_field="kind", tag="conic-creases", kw_only=True, frozen=True):
     """Cones whose creases develop into similar ellipses with shared foci, through the bounces of a billiard ball.
 
     `size` is the half axis of the first ellipse, `growth` the ratio of successive ones, `fold` the fold angle of all
@@ -125,7 +125,7 @@ class ConicCreases(_Strict, tag_field="kind", tag="conic-creases", kw_only=True)
     step: Annotated[float, Meta(gt=0, lt=60, description="degrees above 0, below 60")] = 1.5
 
 
-class Miura(_Strict, tag_field="kind", tag="miura", kw_only=True):
+class Miura(_Strict, tag_field="kind", tag="miura", kw_only=True, frozen=True):
     """The Miura-ori with zigzag creases; `sector` and `fold` in degrees."""
 
     creases: Annotated[int, Meta(ge=3, le=1000, description="a whole number from 3 to 1000")] = 7
@@ -139,7 +139,7 @@ class Miura(_Strict, tag_field="kind", tag="miura", kw_only=True):
 ClosedForm = Cones | ConicCreases | Miura
 
 
-class Solve(_Strict, kw_only=True):
+class Solve(_Strict, kw_only=True, frozen=True):
     """How the zigzag becomes exact (§3.4)."""
 
     principal: bool = False
@@ -151,7 +151,7 @@ class Solve(_Strict, kw_only=True):
     cut: Annotated[float, Meta(ge=0, lt=100, description="percent of the crease's length, from 0 below 100")] | None = None
 
 
-class Design(_Strict, kw_only=True):
+class Design(_Strict, kw_only=True, frozen=True):
     """A whole recipe, as `report.json` repeats it with all defaults: curve and pattern, or a closed form."""
 
     curve: Curve | None = None

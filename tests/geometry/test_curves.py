@@ -104,5 +104,5 @@ def test_distances_extend_open_ends_by_their_tangents_but_not_closed_ones():
 
 
 def test_a_straight_seed_is_refused_with_a_remedy():
-    with pytest.raises(InvalidDesign, match="straight.*bends"):
+    with pytest.raises(InvalidDesign, match=r"straight.*bends"):
         seed_curve(Spline(points=[[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0]]), 60)

@@ -9,12 +9,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from plisse.geometry.vectors import unit
+from plisse.layout.binormal import binormal_fit
+from plisse.leastsquares.kernel import KERNELS
+from plisse.leastsquares.problem import Problem
 from plisse.measure.planarity import face_normals
 from plisse.solve import energies
 from plisse.solve.energies import (
-    KERNELS,
     Guides,
-    binormal_fit,
     closeness,
     constant_fold,
     developability,
@@ -25,7 +26,6 @@ from plisse.solve.energies import (
     planarity,
     plane_fit,
 )
-from plisse.solve.problem import Problem
 from plisse.structure.exact import alternating_cones, conic_creases, marched, miura
 from plisse.structure.grid import grid
 

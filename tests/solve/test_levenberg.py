@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from plisse.solve.energies.kernel import Kernel, Rows, Term
-from plisse.solve.levenberg import Status, levenberg_marquardt
-from plisse.solve.problem import Problem
+from plisse.leastsquares.kernel import Kernel, Rows, Term
+from plisse.leastsquares.levenberg import Status, levenberg_marquardt
+from plisse.leastsquares.problem import Problem
 
 POINT = (Rows("point", np.array([0])),)
 KEYS = {"point": (2, np.array([0]))}

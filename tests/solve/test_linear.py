@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.sparse import coo_array
 
-from plisse.solve.linear import GramPattern, NotPositiveDefinite, factoriser
-from plisse.solve.linear.factor import Banded, Sparse
+from plisse.leastsquares import GramPattern, NotPositiveDefinite, factoriser
+from plisse.leastsquares.factor import Banded, Sparse
 
 SIZE, COLUMNS, ENTRIES = 30, 80, 400
 

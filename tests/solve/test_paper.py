@@ -7,12 +7,12 @@ from plisse.geometry.curves import seed_curve
 from plisse.geometry.vectors import norm
 from plisse.layout.evolve import evolve
 from plisse.layout.widths import strip_widths
+from plisse.leastsquares.levenberg import Status
 from plisse.measure.isometry import isometry_defect
 from plisse.measure.planarity import face_normals, planarity_defect
 from plisse.measure.sectors import angle_defect, principal_defect
 from plisse.recipe import Helix, TorusKnot
 from plisse.solve.energies import Guides
-from plisse.solve.levenberg import Status
 from plisse.solve.paper import paper_weights, quasi_unfolding, solve_paper, square_grid
 from plisse.solve.zigzag import zigzag
 from plisse.structure.cut import cut_along, uncut

@@ -1,5 +1,7 @@
 """The exact method: quadratic convergence, least movement, recovery from noise, honest failure."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -29,7 +31,7 @@ def test_polish_converges_quadratically(cones):
     history = polish(Constraints(cones.topology), disturbed(cones, 3e-3)).history
     large = [defect for defect in history[:-1] if defect > 1e-10]
     assert len(large) >= 2
-    rates = [np.log(b) / np.log(a) for a, b in zip(large, large[1:], strict=False)]
+    rates = [np.log(b) / np.log(a) for a, b in pairwise(large)]
     assert rates[-1] > 1.5
 
 

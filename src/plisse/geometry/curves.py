@@ -4,11 +4,11 @@ from functools import singledispatch
 
 import numpy as np
 
-from plisse.recipe import Arc, Ellipse, Helix, Points, Spline, TorusKnot
 from plisse.errors import InvalidDesign
 from plisse.geometry.frames import curvature
 from plisse.geometry.polyline import arc_length, sample_evenly
 from plisse.geometry.smooth import smoothed_polyline
+from plisse.recipe import Arc, Ellipse, Helix, Points, Spline, TorusKnot
 
 __all__ = ["seed_curve"]
 

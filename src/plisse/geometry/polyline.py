@@ -6,7 +6,8 @@ from scipy.spatial import cKDTree
 
 from plisse.geometry.vectors import dot, norm, unit
 
-__all__ = ["arc_length", "distance_to_polyline", "interpolating_spline", "sample_evenly"]
+__all__ = ["arc_length", "closest_on_polyline", "distance_to_polyline", "interpolating_spline", "sample_evenly",
+           "segments", "tangents"]
 
 
 def arc_length(points: np.ndarray, closed: bool = False) -> np.ndarray:
@@ -55,29 +56,44 @@ def sample_evenly(points: np.ndarray, count: int, closed: bool = False) -> np.nd
     return spline(np.interp(np.linspace(0, length[-1], count, endpoint=not closed), length, fine))
 
 
+def closest_on_polyline(points: np.ndarray, line: np.ndarray, closed: bool = False,
+                        extended: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Start and end (N,) of the segment closest to each point, and the foot's fraction in it.
+
+    Only the two segments at the nearest vertex are tried. `extended` lets feet lie beyond the ends of open lines.
+    """
+    count = len(line)
+    nearest = cKDTree(line).query(points)[1]
+    options = []
+    for first in (nearest - 1, nearest):
+        start = first % count if closed else np.clip(first, 0, count - 2)
+        end = (start + 1) % count
+        along = line[end] - line[start]
+        low = np.where((start == 0) & extended & (not closed), -np.inf, 0.0)
+        high = np.where((start == count - 2) & extended & (not closed), np.inf, 1.0)
+        fraction = np.clip(dot(points - line[start], along) / dot(along, along), low, high)
+        gap = points - line[start] - fraction[:, None] * along
+        options.append((start, end, fraction, dot(gap, gap)))
+    nearer = options[0][3] < options[1][3]
+    start, end, fraction = (np.where(nearer, a, b) for a, b in zip(options[0][:3], options[1][:3], strict=True))
+    return start, end, fraction
+
+
 def distance_to_polyline(points: np.ndarray, line: np.ndarray, closed: bool = False) -> np.ndarray:
     """Distances (N,) of points from a polyline whose open ends are extended by their tangents."""
-    if closed:
-        line = np.concatenate([line[-2:], line, line[:2]])
-    nearest = cKDTree(line).query(points)[1]
-    best = np.full(len(points), np.inf)
-    for start in (np.clip(nearest - 1, 0, len(line) - 2), np.clip(nearest, 0, len(line) - 2)):
-        along = line[start + 1] - line[start]
-        at = dot(points - line[start], along) / dot(along, along)
-        low = np.where((start == 0) & (not closed), -np.inf, 0.0)
-        high = np.where((start == len(line) - 2) & (not closed), np.inf, 1.0)
-        best = np.minimum(best, norm(points - line[start] - np.clip(at, low, high)[:, None] * along))
-    return best
+    start, end, fraction = closest_on_polyline(points, line, closed, extended=True)
+    return norm(points - line[start] - fraction[:, None] * (line[end] - line[start]))
 
 
 def tangents(points: np.ndarray, closed: bool = False) -> np.ndarray:
-    """Unit tangents (N, 3) of the circles through three successive points; ends extrapolated."""
+    """Unit tangents (N, 3) of the circles through three successive points; at open ends those of the end circles."""
     before, after = segments(points, closed)
     inner = unit(before / dot(before, before)[:, None] + after / dot(after, after)[:, None])
     if closed:
         return inner
-    steps = unit(np.diff(points, axis=0))
-    return np.concatenate([[unit(1.5 * steps[0] - 0.5 * steps[1])], inner, [unit(1.5 * steps[-1] - 0.5 * steps[-2])]])
+    first, last = unit(before[0]), unit(after[-1])
+    ends = 2 * (inner[0] @ first) * first - inner[0], 2 * (inner[-1] @ last) * last - inner[-1]
+    return np.concatenate([ends[:1], inner, ends[1:]])
 
 
 def segments(points: np.ndarray, closed: bool) -> tuple[np.ndarray, np.ndarray]:

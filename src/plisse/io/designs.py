@@ -4,13 +4,14 @@ import math
 import re
 import tomllib
 from collections.abc import Iterable
+from itertools import pairwise
 from pathlib import Path
 
 import msgspec
 
-from plisse.recipe import Arc, ClosedForm, Curve, Design, Ellipse, Helix, Pattern, Points, Solve, Spline, TorusKnot
 from plisse.errors import InvalidDesign
 from plisse.io.polylines import read_polyline
+from plisse.recipe import Arc, ClosedForm, Curve, Design, Ellipse, Helix, Pattern, Points, Solve, Spline, TorusKnot
 
 __all__ = ["design_from_dict", "parse_assignment", "read_design"]
 
@@ -166,7 +167,7 @@ def _check_width(width: object, creases: int) -> None:
         if len(row) != 2 or row[1] <= 0 or not 0 <= row[0] <= 1:
             raise InvalidDesign(f"pattern.width[{k}] is {row}; give [position from 0 to 1 along the curve, width above 0]")
     positions = [row[0] for row in width]
-    if len(width) < 2 or any(b <= a for a, b in zip(positions, positions[1:], strict=False)):
+    if len(width) < 2 or any(b <= a for a, b in pairwise(positions)):
         raise InvalidDesign(f"pattern.width has the positions {positions}; give at least two, in increasing order")
 
 

@@ -12,7 +12,7 @@ from plisse.geometry.polyline import arc_length
 from plisse.geometry.vectors import dot, norm
 from plisse.structure.pattern import Pattern
 
-__all__ = ["default_smoothing", "evolve", "evolution_nodes"]
+__all__ = ["default_smoothing", "evolution_nodes", "evolve", "refuse_collapse"]
 
 STEPS_PER_STRIP = 8
 SMALLEST_STRETCH = 0.005
@@ -27,6 +27,8 @@ def evolve(seed: np.ndarray, theta: np.ndarray, widths: np.ndarray, *, closed: b
     Raises Infeasible with crease, place and remedy where the pattern collapses.
     """
     length = arc_length(seed, closed)[-1]
+    if not curvature(seed, closed).max() * length > 1e-9:
+        raise Infeasible("the seed curve is straight and has no side to evolve to; start from a bent curve")
     smooth = (default_smoothing(seed, closed) if smoothing is None else smoothing) * length
     curves, binormals = [seed], [regularised_frame(seed, closed, smooth).binormal]
     points = seed
@@ -35,7 +37,7 @@ def evolve(seed: np.ndarray, theta: np.ndarray, widths: np.ndarray, *, closed: b
         for k in range(count):
             inclination = theta[strip] + (k + 0.5) / count * (theta[strip + 1] - theta[strip])
             before, points = points, _midpoint_step(points, width / count, inclination, closed, smooth)
-            _refuse_collapse(points, before, seed, strip + 1, closed)
+            refuse_collapse(points, before, seed, strip + 1, closed)
         curves.append(points)
         binormals.append(regularised_frame(points, closed, smooth).binormal)
     return Pattern(np.array(curves), np.array(binormals), np.asarray(theta, float), widths, closed)
@@ -67,7 +69,7 @@ def _velocity(points: np.ndarray, theta: float, closed: bool, smoothing: float) 
     return np.cos(theta) * frame.principal_normal + np.sin(theta) * frame.binormal
 
 
-def _refuse_collapse(points: np.ndarray, before: np.ndarray, seed: np.ndarray, crease: int, closed: bool) -> None:
+def refuse_collapse(points: np.ndarray, before: np.ndarray, seed: np.ndarray, crease: int, closed: bool) -> None:
     """Raise Infeasible where edges shrink to nothing or turn round: the focal set of the pattern."""
     edges, previous, original = (_edges(curve, closed) for curve in (points, before, seed))
     stretch = np.where(np.isfinite(edges).all(axis=1), dot(edges, previous) / norm(previous) / norm(original), -1.0)

@@ -4,11 +4,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from plisse.recipe import Design
 from plisse.errors import Infeasible
 from plisse.geometry.curves import seed_curve
 from plisse.layout.evolve import default_smoothing, evolution_nodes, evolve
+from plisse.layout.paper_evolution import evolve_literally
 from plisse.layout.widths import strip_widths
+from plisse.recipe import Curve
+from plisse.recipe import Pattern as PatternRecipe
 from plisse.structure.pattern import Pattern
 
 __all__ = ["Guiding", "guiding"]
@@ -18,43 +20,42 @@ NARROWER = (0.97, 0.94, 0.91, 0.88, 0.85)
 
 @dataclass(frozen=True, eq=False)
 class Guiding:
-    """A pattern at the resolution of its evolution, the samples to solve at, and sentences about compromises."""
+    """A pattern at the resolution of its evolution, samples and amplitude to solve with, sentences about compromises."""
 
     pattern: Pattern
     samples: int
+    amplitude: float
     notes: list[str] = field(default_factory=list)
 
 
-def guiding(design: Design, smoothing_factor: float = 1.0) -> Guiding:
-    """Pattern for a design; strips are narrowed by up to 15 % where they would just run into the focal set.
+def guiding(curve: Curve, recipe: PatternRecipe, smoothing_factor: float = 1.0) -> Guiding:
+    """Pattern for the curve and pattern sections of a design; strips are narrowed by up to 15 % where they would just run into the focal set.
 
     Raises Infeasible where the pattern collapses even so, InvalidDesign for straight seeds.
     """
-    samples = design.pattern.samples
     try:
-        return Guiding(_evolved(design, 1.0, smoothing_factor), samples)
+        return Guiding(_evolved(curve, recipe, 1.0, smoothing_factor), recipe.samples, recipe.amplitude)
     except Infeasible as error:
         collapse = error
     for scale in NARROWER:
         try:
-            pattern = _evolved(design, scale, smoothing_factor)
+            pattern = _evolved(curve, recipe, scale, smoothing_factor)
         except Infeasible:
             continue
         note = (f"pattern.width was narrowed to {100 * scale:.0f} % because otherwise {collapse}")
-        return Guiding(pattern, samples, [note])
+        return Guiding(pattern, recipe.samples, recipe.amplitude, [note])
     raise collapse
 
 
-def _evolved(design: Design, scale: float, smoothing_factor: float) -> Pattern:
-    recipe, closed = design.pattern, design.curve.closed
+def _evolved(curve: Curve, recipe: PatternRecipe, scale: float, smoothing_factor: float) -> Pattern:
+    closed = curve.closed
     theta = np.radians(np.broadcast_to(np.asarray(recipe.theta, float), recipe.creases))
-    nodes = evolution_nodes(seed_curve(design.curve, 200), closed)
-    seed = seed_curve(design.curve, nodes)
+    nodes = evolution_nodes(seed_curve(curve, 200), closed)
+    seed = seed_curve(curve, nodes)
     parameters = np.linspace(0, 1, nodes, endpoint=not closed)
     widths = scale * strip_widths(recipe.width, theta, recipe.amplitude, parameters, closed=closed,
                                   spacing=recipe.spacing)
     if recipe.method == "paper":
-        from plisse.layout.paper_evolution import evolve_literally
         return evolve_literally(seed, theta, widths, closed=closed)
     smoothing = default_smoothing(seed, closed) if recipe.smoothing is None else recipe.smoothing
     return evolve(seed, theta, widths, closed=closed, smoothing=min(smoothing_factor * smoothing, 1.0))

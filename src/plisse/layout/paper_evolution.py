@@ -6,10 +6,10 @@ from plisse.errors import Infeasible
 from plisse.geometry.frames import Frame, curvature_vectors
 from plisse.geometry.polyline import arc_length, tangents
 from plisse.geometry.vectors import dot, norm, unit
-from plisse.layout.evolve import _refuse_collapse
-from plisse.solve.energies import binormal_fit
-from plisse.solve.levenberg import Status, levenberg_marquardt
-from plisse.solve.problem import Problem
+from plisse.layout.binormal import binormal_fit
+from plisse.layout.evolve import refuse_collapse
+from plisse.leastsquares.levenberg import Status, levenberg_marquardt
+from plisse.leastsquares.problem import Problem
 from plisse.structure.pattern import Pattern
 
 __all__ = ["evolve_literally", "optimised_frame"]
@@ -32,7 +32,7 @@ def evolve_literally(seed: np.ndarray, theta: np.ndarray, widths: np.ndarray, *,
         direction = np.cos(theta[strip]) * frame.principal_normal + np.sin(theta[strip]) * frame.binormal
         before = curves[-1]
         points = before + width[:, None] * direction
-        _refuse_collapse(points, before, seed, strip + 1, closed)
+        refuse_collapse(points, before, seed, strip + 1, closed)
         frame = optimised_frame(points, closed, dose)
         curves.append(points)
         binormals.append(frame.binormal)

@@ -1,12 +1,13 @@
 """Relaxation of a zigzag: constraints against displacement fairness whose weight falls step by step."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 
+from plisse.leastsquares.kernel import Term
+from plisse.leastsquares.problem import Problem
 from plisse.solve.energies import developability, displacement_fairness, flat_foldability, planarity
-from plisse.solve.energies.kernel import Term
-from plisse.solve.problem import Problem
 from plisse.structure.topology import Topology
 
 __all__ = ["WEIGHTS", "anneal"]
@@ -16,7 +17,8 @@ LONGEST_STEP = 0.5
 
 
 def anneal(topology: Topology, start: np.ndarray, *, rest: np.ndarray | None = None, principal: bool = False,
-           weights: Sequence[float] = WEIGHTS, steps: int = 1, **fairness: float) -> np.ndarray:
+           weights: Sequence[float] = WEIGHTS, steps: int = 1,
+           fairness: Mapping[str, float] = MappingProxyType({})) -> np.ndarray:
     """Vertices (3, V) after Gauss–Newton steps from `start`, near the constraints and fair against `rest`.
 
     Coordinates are in units of the mean edge length. Every weight of the fairness terms gets `steps` steps, each no

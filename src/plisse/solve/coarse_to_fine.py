@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from plisse.geometry.vectors import norm
+from plisse.leastsquares import NotPositiveDefinite
 from plisse.solve.anneal import WEIGHTS, anneal
 from plisse.solve.attempt import Attempt, Start
 from plisse.solve.constraints import Constraints
-from plisse.solve.linear import NotPositiveDefinite
 from plisse.solve.polish import polish
 from plisse.structure.pattern import interpolate_along
 
@@ -30,14 +30,16 @@ class CoarseToFine:
 
     def __call__(self, start: Start) -> Attempt:
         """The attempt on a start; numerical breakdown is a message, not an exception."""
-        displacement, history, iterations = None, [], 0
+        displacement: np.ndarray | None = None
+        history: list[float] = []
+        iterations = 0
         try:
             for samples in self._levels(start):
                 level = _Level(start, samples)
                 vertices = level.rest if displacement is None else level.displaced(displacement)
                 if displacement is None:
                     vertices = anneal(level.topology, vertices, principal=start.principal, steps=self.steps,
-                                      **self.fairness)
+                                      fairness=self.fairness)
                     iterations += self.steps * len(WEIGHTS)
                 last = samples == start.samples
                 done = polish(Constraints(level.topology, start.principal), vertices, chord=last and samples > 60,
@@ -50,7 +52,7 @@ class CoarseToFine:
                     break
         except NotPositiveDefinite as error:
             return Attempt(self.name, None, f"the linear systems break down: {error}", iterations, tuple(history))
-        if not np.isfinite(displacement).all():
+        if displacement is None or not np.isfinite(displacement).all():
             return Attempt(self.name, None, "the iteration diverges", iterations, tuple(history))
         vertices = (start.guides(start.samples) + displacement).reshape(-1, 3)
         return Attempt(self.name, vertices, "", iterations, tuple(history))

@@ -7,9 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
+from plisse.leastsquares import Factor, GramPattern, NotPositiveDefinite, factoriser
+from plisse.leastsquares.kernel import Term
 from plisse.solve.energies import developability, flat_foldability, planarity
-from plisse.solve.energies.kernel import Term
-from plisse.solve.linear import Factor, GramPattern, NotPositiveDefinite, factoriser
 from plisse.structure.topology import Topology
 
 __all__ = ["Constraints"]

@@ -11,11 +11,11 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order
 
 from plisse.geometry.vectors import dot, norm, unit
+from plisse.leastsquares.kernel import Rows, Term
+from plisse.leastsquares.problem import Problem
 from plisse.measure.isometry import isometry_defect
 from plisse.measure.planarity import face_normals
 from plisse.solve.energies import given_length
-from plisse.solve.energies.kernel import Rows, Term
-from plisse.solve.problem import Problem
 from plisse.structure.cut import Cut
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Topology

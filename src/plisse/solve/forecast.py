@@ -10,7 +10,7 @@ import numpy as np
 
 from plisse.geometry.frames import curvature, regularised_frame, torsion
 from plisse.geometry.polyline import arc_length
-from plisse.geometry.vectors import angle_between, dot, norm
+from plisse.geometry.vectors import angle_between, dot
 from plisse.layout.evolve import default_smoothing
 from plisse.solve.zigzag import zigzag_curves
 from plisse.structure.pattern import Pattern
@@ -70,8 +70,8 @@ class Forecast:
                        "pattern.theta or pattern.amplitude")
         return out
 
-    def _percent(self, column: int) -> float:
-        return 100 * column / max(self.ruling_angles.shape[1] - 1, 1)
+    def _percent(self, column: np.intp) -> float:
+        return 100 * int(column) / max(self.ruling_angles.shape[1] - 1, 1)
 
 
 def forecast(pattern: Pattern, amplitude: float, principal: bool = False) -> Forecast:

@@ -12,14 +12,14 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order
 
 from plisse.geometry.vectors import dot, norm
+from plisse.leastsquares.kernel import Rows, Term
+from plisse.leastsquares.levenberg import Minimum, Status, levenberg_marquardt
+from plisse.leastsquares.problem import Blocks, Problem
 from plisse.measure.planarity import face_normals
 from plisse.solve.energies import Guides, closeness, constant_fold, fairness, plane_fit
 from plisse.solve.energies.angle_sum import angle_sum
-from plisse.solve.energies.kernel import Rows, Term
 from plisse.solve.energies.length import equal_length, given_length
 from plisse.solve.flatten import unfold
-from plisse.solve.levenberg import Minimum, Status, levenberg_marquardt
-from plisse.solve.problem import Blocks, Problem
 from plisse.structure.cut import Cut, uncut
 from plisse.structure.topology import Topology
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from plisse.leastsquares import Factor, NotPositiveDefinite
 from plisse.solve.constraints import Constraints
-from plisse.solve.linear import NotPositiveDefinite
 
 __all__ = ["Polished", "polish"]
 
@@ -36,7 +36,8 @@ def polish(constraints: Constraints, vertices: np.ndarray, *, steps: int = 10, c
     """
     best = current = vertices
     history: list[float] = []
-    factor = jacobian = None
+    factor: Factor | None = None
+    jacobian = np.empty(0)
     factorisations = waited = 0
     least = np.inf
     for _ in range(steps + 1):

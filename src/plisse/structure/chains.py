@@ -1,12 +1,14 @@
 """Polylines of a topology: edges of one kind joined end to end where they go straight on."""
 
+from collections.abc import Iterable
+
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from plisse.structure.topology import Polyline, Topology
 
-__all__ = ["boundary_loops", "chains"]
+__all__ = ["boundary_loops", "chains", "successive_triples"]
 
 
 def chains(topology: Topology, *, crease: bool) -> tuple[Polyline, ...]:
@@ -20,6 +22,15 @@ def boundary_loops(topology: Topology) -> tuple[np.ndarray, ...]:
     edges = topology.edges
     ends = edges.vertices[edges.is_boundary]
     return tuple(_walk_directed(ends))
+
+
+def successive_triples(lines: Iterable[Polyline]) -> np.ndarray:
+    """Successive vertices (T, 3) along polylines."""
+    parts = [np.empty((0, 3), np.int64)]
+    for line in lines:
+        vertices = np.append(line.vertices, line.vertices[:2]) if line.closed else line.vertices
+        parts.append(np.stack([vertices[:-2], vertices[1:-1], vertices[2:]], axis=1))
+    return np.concatenate(parts)
 
 
 def _join(ends: np.ndarray) -> tuple[Polyline, ...]:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from plisse.solve.energies.kernel import Rows, Term, kernel
+from plisse.leastsquares.kernel import Rows, Term, kernel
 from plisse.solve.energies.sector import signed_angle_gradients, signed_angles
 from plisse.structure.topology import Topology
 

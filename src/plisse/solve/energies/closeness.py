@@ -3,14 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from plisse.geometry import components
 from plisse.geometry.frames import regularised_frame
-from plisse.geometry.polyline import arc_length, tangents
-from plisse.geometry.vectors import dot, unit
-from plisse.solve.energies.kernel import Rows, Term, kernel
-from plisse.structure.topology import Polyline, Topology
+from plisse.geometry.polyline import arc_length, closest_on_polyline, tangents
+from plisse.geometry.vectors import unit
+from plisse.leastsquares.kernel import Rows, Term, kernel
+from plisse.structure.topology import Topology
 
 __all__ = ["Guides", "closeness", "offset_along"]
 
@@ -56,11 +55,11 @@ class Guides:
         """Closest points v* (V, 3) on each vertex's own crease and the principal normals n* (V, 3) there."""
         feet, normals = vertices.copy(), self.principal_normals.copy()
         for crease in self.topology.creases:
-            start, end, fraction = _closest_segments(crease, self.vertices, vertices[crease.vertices])
+            line, across = self.vertices[crease.vertices], self.principal_normals[crease.vertices]
+            start, end, fraction = closest_on_polyline(vertices[crease.vertices], line, crease.closed)
             weight = fraction[:, None]
-            feet[crease.vertices] = (1 - weight) * self.vertices[start] + weight * self.vertices[end]
-            normals[crease.vertices] = unit((1 - weight) * self.principal_normals[start]
-                                            + weight * self.principal_normals[end])
+            feet[crease.vertices] = (1 - weight) * line[start] + weight * line[end]
+            normals[crease.vertices] = unit((1 - weight) * across[start] + weight * across[end])
         return feet, normals
 
 
@@ -69,25 +68,3 @@ def closeness(guides: Guides, vertices: np.ndarray, weight: float = 1.0) -> Term
     feet, normals = guides.feet(vertices)
     rows = (Rows("vertices", np.arange(len(vertices))),)
     return Term("close", offset_along, rows, weight, {"foot": feet.T, "normal": normals.T})
-
-
-def _closest_segments(crease: Polyline, line: np.ndarray,
-                      points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Ends (vertex numbers) of the segment closest to each point (n, 3), and the foot's place in it.
-
-    Only the two segments at the nearest vertex are tried.
-    """
-    count = len(crease.vertices)
-    nearest = cKDTree(line[crease.vertices]).query(points)[1]
-    options = []
-    for first in (nearest - 1, nearest):
-        first = first % count if crease.closed else np.clip(first, 0, count - 2)
-        start, end = crease.vertices[first], crease.vertices[(first + 1) % count]
-        along = line[end] - line[start]
-        fraction = np.clip(dot(points - line[start], along) / dot(along, along), 0, 1)
-        gap = points - line[start] - fraction[:, None] * along
-        options.append((start, end, fraction, dot(gap, gap)))
-    first_is_closer = options[0][3] < options[1][3]
-    start, end, fraction = (np.where(first_is_closer, a, b)
-                            for a, b in zip(options[0][:3], options[1][:3], strict=True))
-    return start, end, fraction

@@ -1,6 +1,6 @@
 """Flat-foldability, equivalent to the principal property: ω1 + ω3 = ω2 + ω4 (§2.4 (3))."""
 
-from plisse.solve.energies.kernel import Rows, Term, kernel
+from plisse.leastsquares.kernel import Rows, Term, kernel
 from plisse.solve.energies.sector import signed_angle_gradients, signed_angles
 from plisse.structure.topology import Topology
 

@@ -1,12 +1,11 @@
 """Isometry: lengths in the development equal lengths in space (E_isom of §3.4)."""
 
-import numpy as np
 
 from plisse.geometry.components import dot
-from plisse.solve.energies.kernel import Rows, Term, kernel
+from plisse.leastsquares.kernel import Rows, Term, kernel
 from plisse.structure.topology import Topology
 
-__all__ = ["equal_length", "given_length", "isometry", "isometry_pairs"]
+__all__ = ["equal_length", "given_length", "isometry"]
 
 
 @kernel
@@ -33,11 +32,6 @@ def _(p, q, a, b):
 
 def isometry(topology: Topology, weight: float = 1.0) -> Term:
     """E_isom: mesh and development have equal edges and diagonals; every edge is counted once."""
-    i, j = isometry_pairs(topology).T
+    i, j = topology.rods.T
     return Term("isometry", equal_length, (Rows("vertices", i), Rows("vertices", j),
                                            Rows("development", i), Rows("development", j)), weight)
-
-
-def isometry_pairs(topology: Topology) -> np.ndarray:
-    """Vertex pairs (P, 2): every edge and every diagonal of a face."""
-    return topology.rods

@@ -3,7 +3,8 @@
 import numpy as np
 
 from plisse.geometry.components import dot
-from plisse.solve.energies.kernel import Rows, Term, kernel
+from plisse.leastsquares.kernel import Rows, Term, kernel
+from plisse.leastsquares.unit_length import unit_length
 from plisse.structure.topology import Topology
 
 __all__ = ["edge_in_plane", "plane_fit", "unit_length"]
@@ -18,17 +19,6 @@ def edge_in_plane(p, q, normal):
 @edge_in_plane.jacobian
 def _(p, q, normal):
     return normal, -normal, p - q
-
-
-@kernel
-def unit_length(normal):
-    """|n|² − 1."""
-    return dot(normal, normal) - 1
-
-
-@unit_length.jacobian
-def _(normal):
-    return (2 * normal,)
 
 
 def plane_fit(topology: Topology, weight: float = 1.0) -> list[Term]:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from plisse.geometry.components import dot
-from plisse.solve.energies.kernel import Rows, Term, kernel
+from plisse.leastsquares.kernel import Rows, Term, kernel
 from plisse.structure.topology import Topology
 
 __all__ = ["constant_fold", "equal_cosine"]

@@ -1,7 +1,7 @@
 """Planarity as vanishing tetrahedron volumes: exact, scale-free after normalisation, no normals needed (§3.4)."""
 
 from plisse.geometry.components import cross, dot
-from plisse.solve.energies.kernel import Rows, Term, kernel
+from plisse.leastsquares.kernel import Rows, Term, kernel
 from plisse.structure.topology import Topology
 
 __all__ = ["planarity", "tetrahedron_volume"]

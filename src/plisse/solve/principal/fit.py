@@ -25,7 +25,7 @@ _ACCEPTED = 1.0  # amplitudes
 _ENOUGH = 2  # attempts after which a regular structure is taken although it is farther off
 _HOPELESS = 4.0  # amplitudes: an irregular coarse fit farther off is given up
 _LADDER = (61, 121)  # samples per crease at which the numbers are fitted first
-_DRIFT = 0.02  # amplitudes by which the deviation may grow from one resolution to the next without a new fit
+_DRIFT = 0.05  # amplitudes by which the deviation may grow from one resolution to the next without a new fit
 _OPEN_TERMS, _CLOSED_TERMS = 12, 9
 
 

@@ -5,8 +5,8 @@ from functools import cached_property
 
 import numpy as np
 
-from plisse.solve.energies.kernel import Term
-from plisse.solve.linear import Factor, GramPattern, NotPositiveDefinite, factoriser
+from plisse.leastsquares import Factor, GramPattern, NotPositiveDefinite, factoriser
+from plisse.leastsquares.kernel import Term
 
 __all__ = ["Blocks", "Linearisation", "Problem"]
 
@@ -83,7 +83,8 @@ class Problem:
 
     def linearise(self, blocks: Blocks) -> Linearisation:
         """Residuals and Jacobian entries at a point."""
-        residuals, entries = [], []
+        residuals: list[np.ndarray] = []
+        entries: list[np.ndarray] = []
         for term in self.terms:
             arguments, scale = _arguments(term, blocks), np.sqrt(term.weight)
             residuals.append(scale * term.kernel(*arguments, **term.data).ravel())

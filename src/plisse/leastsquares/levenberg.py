@@ -6,8 +6,8 @@ from enum import Enum
 
 import numpy as np
 
-from plisse.solve.linear import NotPositiveDefinite
-from plisse.solve.problem import Blocks, Linearisation, Problem
+from plisse.leastsquares import NotPositiveDefinite
+from plisse.leastsquares.problem import Blocks, Linearisation, Problem
 
 __all__ = ["Minimum", "Status", "levenberg_marquardt"]
 

@@ -7,7 +7,7 @@ from scipy.linalg import lapack
 from scipy.sparse import csc_array, tril
 from scipy.sparse.linalg import splu
 
-from plisse.solve.linear.gram import GramPattern
+from plisse.leastsquares.gram import GramPattern
 
 __all__ = ["Factor", "NotPositiveDefinite", "factoriser"]
 

@@ -15,6 +15,10 @@ __all__ = ["KERNELS", "Kernel", "Rows", "Term", "kernel"]
 KERNELS: dict[str, "Kernel"] = {}
 
 
+def _no_gradients(*arguments, **data):
+    raise NotImplementedError("this kernel has no Jacobian; register one with @kernel.jacobian")
+
+
 @dataclass(eq=False)
 class Kernel:
     """A residual with its exact Jacobian; positional arguments are unknowns, keyword ones frozen data."""
@@ -22,7 +26,7 @@ class Kernel:
     name: str
     residual: Callable[..., np.ndarray]
     componentwise: bool = False
-    gradients: Callable[..., tuple[np.ndarray, ...]] | None = None
+    gradients: Callable[..., tuple[np.ndarray, ...]] = _no_gradients
 
     def __call__(self, *arguments, **data):
         return self.residual(*arguments, **data)

@@ -3,9 +3,9 @@
 import numpy as np
 
 from plisse.geometry.components import dot
-from plisse.solve.energies.displacement import displacement_bend
-from plisse.solve.energies.kernel import Rows, Term, kernel
-from plisse.solve.energies.plane import unit_length
+from plisse.leastsquares.differences import second_difference
+from plisse.leastsquares.kernel import Rows, Term, kernel
+from plisse.leastsquares.unit_length import unit_length
 
 __all__ = ["binormal_fit", "orthogonal_to_edge"]
 
@@ -31,5 +31,5 @@ def binormal_fit(points: np.ndarray, closed: bool, regulariser: float) -> list[T
     return [Term("edge_after", orthogonal_to_edge, (Rows("binormals", start),), 1.0, {"edge": edge}),
             Term("edge_before", orthogonal_to_edge, (Rows("binormals", successor),), 1.0, {"edge": -edge}),
             Term("unit_binormal", unit_length, (Rows("binormals", index),)),
-            Term("regulariser", displacement_bend, tuple(Rows("binormals", column) for column in bends),
+            Term("regulariser", second_difference, tuple(Rows("binormals", column) for column in bends),
                  regulariser, {"rest": 0.0})]
