@@ -82,7 +82,7 @@ def test_fits_to_general_guides_are_exact_near_and_regular(samples):
     assert principal < 1e-12
 
 
-def test_closer_guides_give_closer_fits_at_every_resolution():
+def test_fitted_numbers_hardly_depend_on_the_number_of_samples():
     coarse, fine = (fit_principal(zigzag(samples), AMPLITUDE) for samples in (61, 121))
     assert fine.numbers.half_opening == pytest.approx(coarse.numbers.half_opening, abs=1e-3)
     assert np.abs(fine.numbers.creases - coarse.numbers.creases)[1:-1].max() < 0.02

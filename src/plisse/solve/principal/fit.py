@@ -7,6 +7,7 @@ the numbers of the explicit construction does not, and every attempt is exact.
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,7 +27,6 @@ _ENOUGH = 2  # attempts after which a regular structure is taken although it is 
 _HOPELESS = 4.0  # amplitudes: an irregular coarse fit farther off is given up
 _LADDER = (61, 121)  # samples per crease at which the numbers are fitted first
 _DRIFT = 0.05  # amplitudes by which the deviation may grow from one resolution to the next without a new fit
-_OPEN_TERMS, _CLOSED_TERMS = 12, 9
 
 
 @dataclass(frozen=True)
@@ -55,14 +55,14 @@ class PrincipalFit:
         return bool(self.regularity.message), self.deviation if self.deviation < np.inf else np.inf
 
 
-def fit_principal(guides: np.ndarray, amplitude: float, *, closed: bool = False, **options) -> PrincipalFit:
+def fit_principal(guides: np.ndarray, amplitude: float, *, closed: bool = False) -> PrincipalFit:
     """The first attempt that is regular and within an amplitude of guides (m, n, 3), else the best one.
 
     Raises `Infeasible` for closed creases with an even number of samples whose rectifying planes do not
     close.
     """
     best: PrincipalFit | None = None
-    for tried, attempt in enumerate(fit_candidates(guides, amplitude, closed=closed, **options), start=1):
+    for tried, attempt in enumerate(fit_candidates(guides, amplitude, closed=closed), start=1):
         if best is None or attempt.badness < best.badness:
             best = attempt
         if best.is_good or (tried >= _ENOUGH and not best.regularity.message):
@@ -71,45 +71,51 @@ def fit_principal(guides: np.ndarray, amplitude: float, *, closed: bool = False,
     return best
 
 
-def fit_candidates(guides: np.ndarray, amplitude: float, *, closed: bool = False, terms: int | None = None,
-                   stiffness: float = 0.002) -> Iterator[PrincipalFit]:
-    """Exact attempts along guides (m, n, 3), cheap ones first: at once, progressively, from other seeds.
+def fit_candidates(guides: np.ndarray, amplitude: float, *, closed: bool = False) -> Iterator[PrincipalFit]:
+    """Exact attempts along guides (m, n, 3), cheap ones first: directly, progressively, from other seeds.
 
-    Attempts that are hopeless on few samples are not refined; if all are, the least bad one is the only
-    candidate. `terms` is the number of displacement coefficients of the seed per normal, `stiffness`
-    holds them small.
+    Attempts that are hopeless on few samples are not refined; if all are, the least bad one is the only candidate.
     """
     guides = _checked(guides)
     centre = guides.mean(axis=(0, 1))
-    options = {"terms": terms or (_CLOSED_TERMS if closed else _OPEN_TERMS), "stiffness": stiffness}
     hopeless: list[PrincipalFit] = []
     any_better = False
-    for seed, strategy in _strategies(len(guides), closed):
-        target = aim(np.moveaxis(guides - centre, 2, 1), amplitude, seed, closed)
+    for plan in _plans(len(guides), closed):
+        target = aim(np.moveaxis(guides - centre, 2, 1), amplitude, plan.seed, closed)
         coarse = target.at(min(_LADDER[0], target.samples))
-        attempt = _result(coarse, strategy(coarse, **options), centre)
+        attempt = _result(coarse, plan.fit(coarse, terms=plan.terms, stiffness=plan.stiffness), centre)
         if attempt.badness > (True, _HOPELESS):
             hopeless.append(_result(target, attempt.numbers, centre))
         else:
             any_better = True
-            yield _result(target, _refined(target, coarse, attempt.numbers, stiffness), centre)
+            yield _result(target, _refined(target, coarse, attempt.numbers, plan.stiffness), centre)
     if not any_better:
         yield min(hopeless, key=lambda attempt: attempt.badness)
 
 
-Strategy = Callable[..., PrincipalNumbers]
+class _Plan(NamedTuple):
+    """An attempt: seed crease, first fit, displacement coefficients of the seed per normal and their stiffness."""
+
+    seed: int
+    fit: Callable[..., PrincipalNumbers]
+    terms: int
+    stiffness: float
 
 
-def _strategies(creases: int, closed: bool) -> Iterator[tuple[int, Strategy]]:
-    """Seed crease and first fit of each attempt."""
+def _plans(creases: int, closed: bool) -> Iterator[_Plan]:
+    """Cheap ones first; displacements of many terms, softly held, reach farther and take longer."""
     middle = creases // 2
-    yield middle, direct_fit
-    yield middle, partial(progressive_fit, windows=(1.0,))
-    if creases >= 6:
-        yield creases // 3, partial(progressive_fit, windows=(1.0,))
-        yield 2 * creases // 3, partial(progressive_fit, windows=(1.0,))
+    gradually = partial(progressive_fit, windows=(1.0,))
+    soft = (9 if closed else 12, 0.002)
+    yield _Plan(middle, direct_fit, 9 if closed else 8, 0.02)
+    yield _Plan(middle, gradually, *soft)
     if not closed:
-        yield middle, partial(progressive_fit, windows=(0.4, 0.7, 1.0))
+        yield _Plan(middle, direct_fit, *soft)
+    if creases >= 6:
+        yield _Plan(creases // 3, gradually, *soft)
+        yield _Plan(2 * creases // 3, gradually, *soft)
+    if not closed:
+        yield _Plan(middle, partial(progressive_fit, windows=(0.4, 0.7, 1.0)), *soft)
 
 
 def _refined(target: Target, coarse: Target, numbers: PrincipalNumbers, stiffness: float) -> PrincipalNumbers:
