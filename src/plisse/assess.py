@@ -7,7 +7,7 @@ from plisse.measure.measurements import Measurements, measure
 from plisse.measure.planarity import planarity_defect
 from plisse.measure.regularity import MIN_SECTOR, OPENING_RANGE
 from plisse.measure.sectors import angle_defect
-from plisse.measure.verdict import EXACT
+from plisse.measure.verdict import EXACT, FAR
 from plisse.recipe import MILLIMETRES
 from plisse.result import Interval, Report, Sheet, Spread
 from plisse.structure.place import place_of
@@ -29,10 +29,12 @@ def assess(structure: PleatedStructure, *, principal: bool = False, guides: np.n
     defects = [spread(found.planarity), spread(found.angle[inner])]
     kawasaki = spread(found.principal[inner])
     exact = max(defect.max for defect in [*defects, *([kawasaki] if principal else [])]) <= EXACT
-    reasons = [*_inexact(structure, found, principal), *_irregular(structure, found), *_not_isometric(found)]
+    deviation = _deviation(structure, guides, amplitude)
+    reasons = [*_inexact(structure, found, principal), *_irregular(structure, found), *_not_isometric(found),
+               *_astray(deviation)]
     degrees = np.degrees(found.openings)
     return Report(
-        status="exact" if not reasons else "infeasible" if exact else "approximate",
+        status="exact" if not reasons else "infeasible" if exact and not _astray(deviation) else "approximate",
         reasons=reasons,
         vertices=structure.topology.vertex_count,
         faces=structure.topology.face_count,
@@ -42,7 +44,7 @@ def assess(structure: PleatedStructure, *, principal: bool = False, guides: np.n
         principal=bool(inner.any() and exact and kawasaki.max <= EXACT),
         min_sector_angle_deg=float(np.degrees(found.sectors.min())),
         opening_angle_deg=Interval(float(degrees.min()), float(degrees.max())) if degrees.size else None,
-        crease_deviation=_deviation(structure, guides, amplitude),
+        crease_deviation=deviation,
         inverted_faces=int(found.inverted.sum()),
         self_intersections=len(found.intersections),
         isometry=found.isometry,
@@ -116,6 +118,13 @@ def _not_isometric(found: Measurements) -> list[str]:
         return []
     return [f"the development differs from the folded state by {found.isometry:.1e} mean edge lengths "
             f"(limit {ISOMETRIC:.0e})"]
+
+
+def _astray(deviation: Spread | None) -> list[str]:
+    if deviation is None or deviation.max < FAR:
+        return []
+    return [f"creases stray up to {deviation.max:.1f} amplitudes from their guiding curves (limit {FAR:g}), so this is not "
+            "the shape that was asked for; less torsion, fewer creases or a design that is not principal help"]
 
 
 def _deviation(structure: PleatedStructure, guides: np.ndarray | None, amplitude: float) -> Spread | None:

@@ -9,6 +9,10 @@ class InvalidDesign(PlisseError, ValueError):
     """A design that cannot be read or asks for something impossible."""
 
 
+class InvalidMesh(InvalidDesign):
+    """A reference mesh that cannot be read, or is no single surface that can be oriented."""
+
+
 class InvalidStructure(PlisseError, ValueError):
     """A mesh or file that is not a structure of planar faces along creases."""
 

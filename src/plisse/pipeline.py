@@ -19,7 +19,7 @@ from plisse.solve.energies import Guides
 from plisse.solve.flatten import flatten, laid_out
 from plisse.solve.forecast import forecast
 from plisse.solve.paper import solve_paper
-from plisse.solve.portfolio import GENERAL, PRINCIPAL, Outcome, solve
+from plisse.solve.portfolio import GENERAL, PRINCIPAL, SECOND_CHANCE, Outcome, Way, solve
 from plisse.solve.zigzag import zigzag
 from plisse.stopwatch import Stopwatch
 from plisse.structure.pleated import PleatedStructure
@@ -67,18 +67,20 @@ def _by_formula(recipe: Design, watch: Stopwatch) -> Result:
 def _exactly(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, watch: Stopwatch) -> Result:
     """The best of the portfolio, to machine precision where the geometry allows it."""
     foreseen = forecast(guide.pattern, guide.amplitude, recipe.solve.principal).warnings()
-    outcome = solve(_starts(recipe, guide), PRINCIPAL if recipe.solve.principal else GENERAL)
+    outcome = solve(_plans(recipe, guide))
     best = outcome.best
     if best.attempt.vertices is None:
         return _broken_down(recipe, [best.attempt.message, *foreseen], watch, guide, zigzagged)
     watch.start("flatten", 0.6)
     structure = PleatedStructure(best.start.topology, best.attempt.vertices)
     structure = flatten(structure, best_cut(structure, recipe.solve.cut))
-    report = _measured(recipe, guide, zigzagged, structure, watch)
+    report = _measured(recipe, best.start.guides(best.start.samples), guide.amplitude, structure, watch)
+    foreseen_matters = bool(report.reasons) or not best.is_comfortable
+    warnings = guide.notes + _notes(best.start, guide)
     report = msgspec.structs.replace(
-        report, iterations=best.attempt.iterations, method=best.attempt.method, tried=_said_of(outcome),
-        history=[float(value) for value in best.attempt.history],
-        warnings=guide.notes + (foreseen if report.status == "exact" and not best.is_comfortable else []),
+        report, start=start_defects(zigzagged), iterations=best.attempt.iterations, method=best.attempt.method,
+        history=[float(value) for value in best.attempt.history], tried=_said_of(outcome),
+        warnings=warnings + (foreseen if foreseen_matters and not report.reasons else []),
         reasons=report.reasons + (foreseen if report.reasons else []))
     return Result(recipe, report, best.start.pattern, zigzagged, structure)
 
@@ -92,17 +94,17 @@ def _by_the_paper(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, w
                         principal=recipe.solve.principal)
     structure = PleatedStructure(topology, found.vertices, cut, laid_out(cut.topology, found.development))
     report = msgspec.structs.replace(
-        _measured(recipe, guide, zigzagged, structure, watch), iterations=found.iterations, method="paper",
+        _measured(recipe, zigzagged.vertices.reshape(-1, guide.samples, 3), guide.amplitude, structure, watch),
+        start=start_defects(zigzagged), iterations=found.iterations, method="paper",
         history=[float(value) for value in found.history], warnings=guide.notes)
     return Result(recipe, report, guide.pattern, zigzagged, structure)
 
 
-def _measured(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, structure: PleatedStructure,
+def _measured(recipe: Design, guides: np.ndarray, amplitude: float, structure: PleatedStructure,
               watch: Stopwatch) -> Report:
     watch.start("measure", 0.8)
-    report = assess(structure, principal=recipe.solve.principal, guides=zigzagged.vertices.reshape(-1, guide.samples, 3),
-                    amplitude=guide.amplitude, units=recipe.units)
-    return msgspec.structs.replace(report, start=start_defects(zigzagged), seconds=watch.stop(), design=recipe.to_dict())
+    report = assess(structure, principal=recipe.solve.principal, guides=guides, amplitude=amplitude, units=recipe.units)
+    return msgspec.structs.replace(report, seconds=watch.stop(), design=recipe.to_dict())
 
 
 def _checked(recipe: Design | dict | str | Path) -> Design:
@@ -111,18 +113,29 @@ def _checked(recipe: Design | dict | str | Path) -> Design:
     return design_from_dict(recipe) if isinstance(recipe, dict) else read_design(recipe)
 
 
-def _starts(recipe: Design, guide: Guiding) -> Iterator[Start]:
-    """The pattern as designed, then patterns whose binormals are smoothed more or less."""
+def _notes(start: Start, guide: Guiding) -> list[str]:
+    if start.samples == guide.samples:
+        return []
+    return [f"pattern.samples was raised from {guide.samples} to {start.samples}, because this closed principal structure "
+            "closes exactly only for odd numbers"]
+
+
+def _plans(recipe: Design, guide: Guiding) -> Iterator[tuple[Start, tuple[Way, ...]]]:
+    """The pattern as designed, then patterns whose binormals are smoothed differently, then an odd number of samples."""
     assert recipe.curve is not None
     assert recipe.pattern is not None
     amplitude, principal = guide.amplitude, recipe.solve.principal
-    yield Start(guide.pattern, amplitude, guide.samples, principal)
-    for factor in (0.5, 2.0):
+    ways = PRINCIPAL if principal else GENERAL
+    yield Start(guide.pattern, amplitude, guide.samples, principal), ways
+    for factor in (2.0, 0.5, 4.0):
         try:
             other = guiding(recipe.curve, recipe.pattern, smoothing_factor=factor)
         except Infeasible:
             continue
-        yield Start(other.pattern, amplitude, other.samples, principal, f"binormals smoothed {factor:g} times as far")
+        label = f"binormals smoothed {factor:g} times as far"
+        yield Start(other.pattern, amplitude, guide.samples, principal, label), SECOND_CHANCE
+    if principal and recipe.is_closed and guide.samples % 2 == 0:
+        yield Start(guide.pattern, amplitude, guide.samples + 1, principal, "one sample more, to close"), ways
 
 
 def _said_of(outcome: Outcome) -> list[str]:

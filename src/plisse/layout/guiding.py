@@ -29,9 +29,10 @@ class Guiding:
 
 
 def guiding(curve: Curve, recipe: PatternRecipe, smoothing_factor: float = 1.0) -> Guiding:
-    """Pattern for the curve and pattern sections of a design; strips are narrowed by up to 15 % where they would just run into the focal set.
+    """Pattern for the curve and pattern sections of a design.
 
-    Raises Infeasible where the pattern collapses even so, InvalidDesign for straight seeds.
+    Strips are narrowed by up to 15 % where they would just run into the focal set, and a note says so. Raises Infeasible
+    where the pattern collapses even so, InvalidDesign for straight seeds.
     """
     try:
         return Guiding(_evolved(curve, recipe, 1.0, smoothing_factor), recipe.samples, recipe.amplitude)

@@ -9,7 +9,7 @@ from plisse.measure.regularity import Regularity, regularity
 from plisse.measure.sectors import angle_defect, principal_defect
 from plisse.structure.topology import Topology
 
-__all__ = ["EXACT", "Verdict", "judge"]
+__all__ = ["EXACT", "FAR", "Verdict", "judge"]
 
 EXACT = 1e-9
 COMFORTABLE_SECTOR = np.radians(15.0)

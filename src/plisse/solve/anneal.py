@@ -18,16 +18,16 @@ LONGEST_STEP = 0.5
 
 def anneal(topology: Topology, start: np.ndarray, *, rest: np.ndarray | None = None, principal: bool = False,
            weights: Sequence[float] = WEIGHTS, steps: int = 1,
-           fairness: Mapping[str, float] = MappingProxyType({})) -> np.ndarray:
+           fairness: Mapping[str, float] = MappingProxyType({}), extra: Sequence[Term] = ()) -> np.ndarray:
     """Vertices (3, V) after Gauss–Newton steps from `start`, near the constraints and fair against `rest`.
 
     Coordinates are in units of the mean edge length. Every weight of the fairness terms gets `steps` steps, each no
-    longer than half an edge; `fairness` is passed on to `displacement_fairness`.
+    longer than half an edge; `fairness` is passed on to `displacement_fairness`, `extra` terms fade out with it.
     """
     conditions: list[Term] = [planarity(topology), *developability(topology)]
     if principal:
         conditions += flat_foldability(topology)
-    fair = displacement_fairness(topology, start if rest is None else rest, **fairness)
+    fair = [*displacement_fairness(topology, start if rest is None else rest, **fairness), *extra]
     key = np.arange(topology.vertex_count) if topology.ordering is None else topology.ordering
     problem = Problem(conditions + fair, {"vertices": (3, key)}).prepare()
     blocks = {"vertices": start}

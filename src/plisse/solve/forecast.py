@@ -10,7 +10,7 @@ import numpy as np
 
 from plisse.geometry.frames import curvature, regularised_frame, torsion
 from plisse.geometry.polyline import arc_length
-from plisse.geometry.vectors import angle_between, dot
+from plisse.geometry.vectors import angle_between, dot, norm
 from plisse.layout.evolve import default_smoothing
 from plisse.solve.zigzag import zigzag_curves
 from plisse.structure.pattern import Pattern
@@ -19,6 +19,8 @@ __all__ = ["Forecast", "forecast"]
 
 LOW_RULING = np.radians(15.0)
 HOPELESS_RULING = np.radians(5.0)
+UNEQUAL_OPENINGS = 15.0
+NARROW_STRIP = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,6 +31,8 @@ class Forecast:
     half_openings: np.ndarray
     curvature: np.ndarray
     principal: bool
+    closed: bool
+    narrowest: float
 
     @property
     def is_hopeful(self) -> bool:
@@ -68,6 +72,12 @@ class Forecast:
         if opening[tight] < 8:
             out.append(f"crease {tight + 2} starts with an opening angle of {opening[tight]:.1f}°, almost closed; lower "
                        "pattern.theta or pattern.amplitude")
+        if self.principal and self.closed and np.ptp(opening) > UNEQUAL_OPENINGS:
+            out.append(f"opening angles start between {opening.min():.0f}° and {opening.max():.0f}°, but closed principal "
+                       "structures have nearly one for all creases; give one pattern.theta and one pattern.width")
+        if self.narrowest < NARROW_STRIP:
+            out.append(f"the narrowest strip is only {self.narrowest:.2g} times as wide as its vertices are apart; raise "
+                       "pattern.amplitude or pattern.width, or pattern.samples")
         return out
 
     def _percent(self, column: np.intp) -> float:
@@ -87,7 +97,8 @@ def forecast(pattern: Pattern, amplitude: float, principal: bool = False) -> For
     everywhere = np.concatenate([inner[:1], inner, inner[-1:]])[: len(creases)]
     angles = [_ruling_angles(curve, kappa, opening, closed)
               for curve, kappa, opening in zip(creases, bend, everywhere, strict=True)]
-    return Forecast(np.array(angles), half, bend, principal)
+    gap, step = norm(np.diff(creases, axis=0)), norm(np.diff(creases[:-1], axis=1)).mean()
+    return Forecast(np.array(angles), half, bend, principal, closed, float(np.median(gap, axis=1).min() / step))
 
 
 def _half_openings(creases: np.ndarray, closed: bool) -> np.ndarray:

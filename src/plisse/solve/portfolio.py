@@ -9,16 +9,19 @@ from plisse.solve.attempt import Attempt, Start
 from plisse.solve.coarse_to_fine import CoarseToFine
 from plisse.solve.explicit import constructed
 
-__all__ = ["GENERAL", "PRINCIPAL", "Judged", "Outcome", "solve"]
+__all__ = ["GENERAL", "PRINCIPAL", "SECOND_CHANCE", "Judged", "Outcome", "solve"]
 
 Way = Callable[[Start], Attempt]
 
-STIFF = {"along": 1.0, "same_side": 0.09, "across": 0.03}
 OPTIMISED = CoarseToFine("optimised")
-GENTLE = CoarseToFine("optimised in small steps", columns=60, steps=2, fairness=STIFF)
+GENTLE = CoarseToFine("optimised in small steps", columns=60, steps=2,
+                      fairness={"along": 1.0, "same_side": 0.09, "across": 0.03})
+STIFF = CoarseToFine("optimised with stiff strips", columns=60, steps=2,
+                     fairness={"along": 1.0, "same_side": 0.3, "across": 0.1})
 
 GENERAL: tuple[Way, ...] = (OPTIMISED, GENTLE)
 PRINCIPAL: tuple[Way, ...] = (OPTIMISED, constructed, GENTLE)
+SECOND_CHANCE: tuple[Way, ...] = (OPTIMISED, GENTLE, STIFF)
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,19 +52,19 @@ class Outcome:
     tried: tuple[Judged, ...]
 
 
-def solve(starts: Iterable[Start], ways: tuple[Way, ...]) -> Outcome:
-    """The best of all ways on all starts; stops at the first that is comfortable."""
+def solve(plans: Iterable[tuple[Start, tuple[Way, ...]]]) -> Outcome:
+    """The best of all planned ways on all starts; stops at the first that is comfortable."""
     tried: list[Judged] = []
-    for judged in _attempts(starts, ways):
+    for judged in _attempts(plans):
         tried.append(judged)
         if judged.is_comfortable:
             break
     return Outcome(max(tried, key=lambda judged: judged.rank), tuple(tried))
 
 
-def _attempts(starts: Iterable[Start], ways: tuple[Way, ...]) -> Iterator[Judged]:
+def _attempts(plans: Iterable[tuple[Start, tuple[Way, ...]]]) -> Iterator[Judged]:
     good = False
-    for start in starts:
+    for start, ways in plans:
         if good:  # other starts are for designs that nothing has solved yet
             return
         for way in ways:

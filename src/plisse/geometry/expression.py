@@ -1,0 +1,184 @@
+"""Height fields z(x, y) as text: read by a closed list of rules, differentiated exactly, never executed."""
+
+import ast
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from plisse.errors import InvalidDesign
+
+__all__ = ["Jet", "height_expression"]
+
+MAX_LENGTH, MAX_NODES, MAX_DEPTH = 1000, 300, 60
+ALLOWED = "numbers, x, y, pi, + - * / **, sin, cos, tan, exp, log, sqrt and abs"
+
+
+@dataclass(frozen=True, eq=False)
+class Jet:
+    """A value with its derivatives up to the second: `part` (6, N) holds z, zx, zy, zxx, zxy, zyy."""
+
+    part: np.ndarray
+
+    def __add__(self, other: "Jet") -> "Jet":
+        return Jet(self.part + other.part)
+
+    def __sub__(self, other: "Jet") -> "Jet":
+        return Jet(self.part - other.part)
+
+    def __mul__(self, other: "Jet") -> "Jet":
+        (a, ax, ay, axx, axy, ayy), (b, bx, by, bxx, bxy, byy) = self.part, other.part
+        return Jet(np.stack([a * b, ax * b + a * bx, ay * b + a * by, axx * b + 2 * ax * bx + a * bxx,
+                             axy * b + ax * by + ay * bx + a * bxy, ayy * b + 2 * ay * by + a * byy]))
+
+    def __truediv__(self, other: "Jet") -> "Jet":
+        v = other.part[0]
+        return self * other.through(1 / v, -1 / v**2, 2 / v**3)
+
+    def through(self, value: np.ndarray, first: np.ndarray, second: np.ndarray) -> "Jet":
+        """h(self) for a function with the given value and derivatives at self: the chain rule."""
+        _, x, y, xx, xy, yy = self.part
+        return Jet(np.stack([value, first * x, first * y, first * xx + second * x * x,
+                             first * xy + second * x * y, first * yy + second * y * y]))
+
+
+def _power(base: Jet, exponent: Jet) -> Jet:
+    """Constant exponents work for negative bases too; others are exp(exponent · log base)."""
+    if exponent.part[1:].any():
+        return _exp(exponent * _log(base))
+    n, v = exponent.part[0], base.part[0]
+    first = np.where(n == 0, 0.0, n * v ** np.where(n == 0, 1.0, n - 1))
+    flat = (n == 0) | (n == 1)
+    return base.through(v**n, first, np.where(flat, 0.0, n * (n - 1) * v ** np.where(flat, 1.0, n - 2)))
+
+
+def _sin(a: Jet) -> Jet:
+    s, c = np.sin(a.part[0]), np.cos(a.part[0])
+    return a.through(s, c, -s)
+
+
+def _cos(a: Jet) -> Jet:
+    s, c = np.sin(a.part[0]), np.cos(a.part[0])
+    return a.through(c, -s, -c)
+
+
+def _tan(a: Jet) -> Jet:
+    t = np.tan(a.part[0])
+    return a.through(t, 1 + t**2, 2 * t * (1 + t**2))
+
+
+def _exp(a: Jet) -> Jet:
+    e = np.exp(a.part[0])
+    return a.through(e, e, e)
+
+
+def _log(a: Jet) -> Jet:
+    v = a.part[0]
+    return a.through(np.log(v), 1 / v, -1 / v**2)
+
+
+def _sqrt(a: Jet) -> Jet:
+    r = np.sqrt(a.part[0])
+    return a.through(r, 0.5 / r, -0.25 / r**3)
+
+
+def _abs(a: Jet) -> Jet:
+    return a.through(np.abs(a.part[0]), np.sign(a.part[0]), np.zeros_like(a.part[0]))
+
+
+FUNCTIONS: dict[str, Callable[[Jet], Jet]] = {"sin": _sin, "cos": _cos, "tan": _tan, "exp": _exp, "log": _log,
+                                              "sqrt": _sqrt, "abs": _abs}
+OPERATORS: dict[type, Callable[[Jet, Jet], Jet]] = {ast.Add: Jet.__add__, ast.Sub: Jet.__sub__, ast.Mult: Jet.__mul__,
+                                                    ast.Div: Jet.__truediv__, ast.Pow: _power}
+
+
+def height_expression(text: str) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
+    """The function (x, y) → (6, N) with z, zx, zy, zxx, zxy, zyy; nan where the expression is not defined.
+
+    Raises InvalidDesign, naming what is not allowed, for anything but a formula of bounded size.
+    """
+    tree = _parsed(text)
+    _check(tree, text)
+
+    def heights(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        x, y = (np.asarray(a, dtype=float).ravel() for a in np.broadcast_arrays(x, y))
+        with np.errstate(all="ignore"):
+            part = _value(tree, x, y).part
+        return np.where(np.isfinite(part).all(axis=0), part, np.nan)
+
+    return heights
+
+
+def _parsed(text: str) -> ast.expr:
+    if not isinstance(text, str) or not text.strip():
+        raise InvalidDesign("the height is empty; give an expression in x and y, for instance \"0.1 * x * y\"")
+    if len(text) > MAX_LENGTH:
+        raise InvalidDesign(f"the height has {len(text)} characters; at most {MAX_LENGTH} are read")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return ast.parse(text.strip(), mode="eval").body
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        reason = error.msg if isinstance(error, SyntaxError) else "too deeply nested or not text"
+        raise InvalidDesign(f"the height {_short(text)} is no expression in x and y ({reason})") from None
+
+
+def _check(tree: ast.expr, text: str) -> None:
+    """Walk the tree without recursion and refuse everything that is not on the list."""
+    stack, nodes = [(tree, 1)], 0
+    while stack:
+        node, depth = stack.pop()
+        nodes += 1
+        if nodes > MAX_NODES or depth > MAX_DEPTH:
+            raise InvalidDesign(f"the height {_short(text)} is too long or too deeply nested")
+        children = _children(node)
+        if children is None:
+            hint = "; powers are written **" if isinstance(getattr(node, "op", None), ast.BitXor) else ""
+            part = ast.get_source_segment(text.strip(), node) or type(node).__name__
+            raise InvalidDesign(f"the height {_short(text)} contains {_short(part)}; allowed are {ALLOWED}{hint}")
+        stack += [(child, depth + 1) for child in children]
+
+
+def _children(node: ast.expr) -> list[ast.expr] | None:
+    """What an allowed node is made of, None for one that is not allowed."""
+    match node:
+        case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
+            return [] if abs(value) <= 1e12 else None
+        case ast.Name(id="x" | "y" | "pi"):
+            return []
+        case ast.UnaryOp(op=ast.UAdd() | ast.USub(), operand=operand):
+            return [operand]
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in OPERATORS:
+            return [left, right]
+        case ast.Call(func=ast.Name(id=name), args=[argument], keywords=[]) if name in FUNCTIONS:
+            return [argument]
+    return None
+
+
+def _value(node: ast.expr, x: np.ndarray, y: np.ndarray) -> Jet:
+    match node:
+        case ast.Constant(value=int() | float() as value):
+            return _seed(np.full_like(x, float(value)))
+        case ast.Name(id=name):
+            return _seed(np.full_like(x, np.pi)) if name == "pi" else _seed({"x": x, "y": y}[name], name)
+        case ast.UnaryOp(op=op, operand=operand):
+            inner = _value(operand, x, y)
+            return Jet(-inner.part) if isinstance(op, ast.USub) else inner
+        case ast.BinOp(left=left, op=op, right=right):
+            return OPERATORS[type(op)](_value(left, x, y), _value(right, x, y))
+        case ast.Call(func=ast.Name(id=name), args=[argument]):
+            return FUNCTIONS[name](_value(argument, x, y))
+    raise AssertionError("checked before")
+
+
+def _seed(value: np.ndarray, name: str = "") -> Jet:
+    part = np.zeros((6, len(value)))
+    part[0] = value
+    if name:
+        part[1 if name == "x" else 2] = 1
+    return Jet(part)
+
+
+def _short(text: str) -> str:
+    return repr(text if len(text) <= 40 else text[:37] + "...")

@@ -1,0 +1,180 @@
+"""Rows over a surface, as radii about a centre in its chart: where the creases of a whole surface start."""
+
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+
+from plisse.geometry.surface import Surface, SurfacePoints
+from plisse.geometry.vectors import dot, norm, unit
+
+__all__ = ["ChartedSurface", "RowGeometry", "Rows", "circles", "lifted", "rows_between"]
+
+SECTORS = 72
+FEWEST_COLUMNS, MOST_COLUMNS = 32, 120
+COLUMN_SPACING = 1.1  # columns while rows are relaxed, in widths
+
+
+class ChartedSurface(Surface, Protocol):
+    """A surface with a chart, continued beyond its boundary: `project` keeps the chart coordinates of a point."""
+
+    def to_plane(self, points: np.ndarray) -> np.ndarray:
+        """Chart coordinates and height (N, 3) of points (N, 3)."""
+
+    def to_space(self, coordinates: np.ndarray) -> np.ndarray:
+        """Points (N, 3) with given chart coordinates and heights (N, 3)."""
+
+
+def lifted(surface: ChartedSurface, places: np.ndarray) -> SurfacePoints:
+    """The surface at chart coordinates (…, 2), flattened to (N, …)."""
+    flat = places.reshape(-1, 2)
+    return surface.project(surface.to_space(np.column_stack([flat, np.zeros(len(flat))])))
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """Curves around `centre` (2,) with `radii` (n, m) at `angles` (m,), in the chart; outward is away from it."""
+
+    centre: np.ndarray
+    angles: np.ndarray
+    radii: np.ndarray
+    closed: bool
+
+    @property
+    def places(self) -> np.ndarray:
+        """Chart coordinates (n, m, 2)."""
+        direction = np.stack([np.cos(self.angles), np.sin(self.angles)], axis=-1)
+        return self.centre + self.radii[..., None] * direction
+
+    def with_radii(self, radii: np.ndarray) -> "Rows":
+        """The same rays with other radii."""
+        return replace(self, radii=radii)
+
+
+@dataclass(frozen=True, eq=False)
+class RowGeometry:
+    """How rows (n, m) lie on a surface: `positions`, unit `tangents`, `normals`, `outward` (n, m, 3).
+
+    `geodesic` curvature counts as positive where a row bends towards the centre, `normal` where it bends towards
+    the surface normal; `steps` are lengths between columns, `stretch` lengths per unit of radius, across the row.
+    """
+
+    positions: np.ndarray
+    tangents: np.ndarray
+    normals: np.ndarray
+    outward: np.ndarray
+    geodesic: np.ndarray
+    normal: np.ndarray
+    steps: np.ndarray
+    stretch: np.ndarray
+
+    @classmethod
+    def of(cls, rows: Rows, surface: ChartedSurface) -> "RowGeometry":
+        """The geometry of rows on a surface, by differences along and across them."""
+        shape = rows.radii.shape
+        points = lifted(surface, rows.places)
+        positions, normals = points.positions.reshape(*shape, 3), points.normals.reshape(*shape, 3)
+        velocity, acceleration = along(positions, rows.closed), along_twice(positions, rows.closed)
+        steps = norm(velocity)
+        tangents = unit(velocity - dot(velocity, normals)[..., None] * normals)
+        radial = np.gradient(positions, axis=0) / np.gradient(rows.radii, axis=0)[..., None]
+        outward = np.cross(tangents, normals)
+        outward *= np.sign(np.median(dot(outward, radial)))
+        bend = acceleration / np.maximum(steps, 1e-300)[..., None] ** 2
+        bending = points.bending.reshape(*shape, 3, 3)
+        normal = np.einsum("...i,...ij,...j->...", tangents, bending, tangents)
+        return cls(positions, tangents, normals, outward, -dot(bend, outward), normal, steps, dot(radial, outward))
+
+    @property
+    def gaps(self) -> np.ndarray:
+        """Distances (n−1, m) between neighbouring rows, across them."""
+        across = unit(self.outward[1:] + self.outward[:-1])
+        return dot(self.positions[1:] - self.positions[:-1], across)
+
+
+def along(values: np.ndarray, closed: bool) -> np.ndarray:
+    """First differences along rows, central where possible."""
+    if closed:
+        return 0.5 * (np.roll(values, -1, axis=1) - np.roll(values, 1, axis=1))
+    return np.gradient(values, axis=1)
+
+
+def along_twice(values: np.ndarray, closed: bool) -> np.ndarray:
+    """Second differences along rows; the ends of open rows repeat their neighbours'."""
+    middle = np.arange(values.shape[1]) if closed else np.clip(np.arange(values.shape[1]), 1, values.shape[1] - 2)
+    count = values.shape[1]
+    return values[:, (middle + 1) % count] - 2 * values[:, middle % count] + values[:, (middle - 1) % count]
+
+
+def circles(surface: ChartedSurface, places: np.ndarray, centre: np.ndarray, width: float, *, pad: float = 2.0,
+            hole: float = 2.5) -> Rows:
+    """Concentric circles about a centre, `width` apart on average, that cover places (N, 2) and `pad` widths more.
+
+    They close where the places surround the centre, leaving out a disk of `hole` widths.
+    """
+    offset = places - centre
+    radius, angle = np.hypot(*offset.T), np.arctan2(offset[:, 1], offset[:, 0])
+    seen = np.bincount(((angle + np.pi) / (2 * np.pi) * SECTORS).astype(int) % SECTORS, minlength=SECTORS) > 0
+    closed = bool(seen.all())
+    low = max(radius.min() - pad * width, (hole if closed else 0.5) * width)
+    high = radius.max() + pad * width
+    mean = float(radius.mean())
+    if closed:
+        columns = _columns(2 * np.pi * mean / width)
+        angles = np.arange(columns) * (2 * np.pi / columns) - np.pi
+    else:
+        first, last = _span(angle, seen)
+        first, last = first - pad * width / mean, last + pad * width / mean
+        last = min(last, first + 2 * np.pi - 0.02)
+        angles = np.linspace(first, last, _columns((last - first) * mean / width))
+    inner, outer = np.full(len(angles), low), np.full(len(angles), high)
+    return _filled(surface, places, centre, angles, inner, outer, width, closed)
+
+
+def rows_between(surface: ChartedSurface, inner: np.ndarray, outer: np.ndarray, centre: np.ndarray,
+                 width: float) -> Rows:
+    """Closed rows interpolated between two loops (N, 2), (N', 2) in the chart, both seen once around from a centre."""
+    columns = _columns(2 * np.pi * float(norm(inner - centre).mean() + norm(outer - centre).mean()) / 2 / width)
+    angles = np.arange(columns) * (2 * np.pi / columns) - np.pi
+    low, high = (gaussian_filter1d(_radii_of(loop - centre, angles), columns / 45, mode="wrap")
+                 for loop in (inner, outer))
+    return _filled(surface, np.concatenate([inner, outer]), centre, angles, low, high, width, True)
+
+
+def _columns(widths: float) -> int:
+    return int(np.clip(widths / COLUMN_SPACING, FEWEST_COLUMNS, MOST_COLUMNS))
+
+
+def _span(angle: np.ndarray, seen: np.ndarray) -> tuple[float, float]:
+    """First and last angle when the circle is cut in the middle of its longest unseen arc."""
+    twice = np.tile(~seen, 2)
+    run = np.zeros(len(twice), int)
+    for k in range(len(twice)):
+        run[k] = run[k - 1] + 1 if twice[k] else 0
+    end = int(np.argmax(run))
+    cut = (end + 1 - run[end] / 2) / SECTORS * 2 * np.pi - np.pi
+    turned = (angle - cut) % (2 * np.pi)
+    return float(turned.min() + cut), float(turned.max() + cut)
+
+
+def _radii_of(loop: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    """Radii (m,) of a loop (N, 2) around the origin at given angles."""
+    at = np.arctan2(loop[:, 1], loop[:, 0])
+    order = np.argsort(at)
+    return np.interp(angles, at[order], np.hypot(*loop[order].T), period=2 * np.pi)
+
+
+def _filled(surface: ChartedSurface, places: np.ndarray, centre: np.ndarray, angles: np.ndarray, inner: np.ndarray,
+            outer: np.ndarray, width: float, closed: bool) -> Rows:
+    """Rows between two radii per ray, evenly spaced along the rays, as many as the mean ray asks for."""
+    fraction = np.linspace(0, 1, 120)[:, None]
+    rays = Rows(centre, angles, inner + fraction * (outer - inner), closed)
+    inside = np.clip(rays.places, places.min(axis=0), places.max(axis=0))
+    positions = lifted(surface, inside).positions.reshape(len(fraction), -1, 3)
+    # where rays leave the box of the places the chart measures them
+    lengths = np.maximum(norm(np.diff(positions, axis=0)), norm(np.diff(rays.places, axis=0)))
+    mean = np.concatenate([[0.0], np.cumsum(lengths.mean(axis=1))])
+    count = max(int(round(mean[-1] / width)) + 1, 5)
+    level = np.interp(np.linspace(0, mean[-1], count), mean, fraction[:, 0])[:, None]
+    return rays.with_radii(inner + level * (outer - inner))

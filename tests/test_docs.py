@@ -1,0 +1,57 @@
+"""The code in README and docs runs, and says what it claims."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from plisse.io.designs import design_from_dict
+
+ROOT = Path(__file__).parent.parent
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+
+def blocks(page, language):
+    return re.findall(rf"```{language}\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_python_in_the_docs_runs(page, capsys):
+    for code in blocks(page, "python"):
+        exec(compile(code, str(page), "exec"), {})
+    if page.name == "README.md":
+        status, planarity = capsys.readouterr().out.split()
+        assert status == "exact"
+        assert float(planarity) < 1e-13
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_designs_in_the_docs_are_valid(page):
+    for text in blocks(page, "toml"):
+        assert design_from_dict(tomllib.loads(text)).pattern is not None
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_files_named_in_the_docs_exist(page):
+    text = page.read_text(encoding="utf-8")
+    for target in re.findall(r"\]\((?!http)([^)#]+)\)", text):
+        assert (page.parent / target).exists(), target
+    for name in re.findall(r"`((?:geometry|structure|measure|layout|solve|leastsquares|io|draw|cli)/[\w/]+\.py)", text):
+        assert (ROOT / "src" / "plisse" / name).exists(), name
+
+
+def test_readme_has_one_test_command_that_ci_can_find():
+    marked = ROOT.joinpath("README.md").read_text(encoding="utf-8").split("<!-- test command -->")[1]
+    command = re.search(r"```sh\n(.*?)\n```", marked, re.DOTALL)[1]
+    assert command.count("\n") == 0
+    assert "pytest" in command
+
+
+def test_the_package_docstring_example_runs():
+    import plisse
+
+    lines = [line[4:] for line in plisse.__doc__.splitlines() if line.startswith("    ")]
+    scope = {}
+    exec("\n".join(lines), scope)
+    assert scope["result"].status == "exact"

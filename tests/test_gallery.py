@@ -1,0 +1,146 @@
+"""Every shipped design is exact, regular, of the size of Fig. 21, and shows what its caption says."""
+
+import tomllib
+from importlib.resources import files
+
+import numpy as np
+import pytest
+
+import plisse
+from plisse.geometry.vectors import norm
+from plisse.measure.folds import fold_angles
+
+GALLERY = files("plisse") / "gallery"
+NAMES = sorted(entry.name.removesuffix(".toml") for entry in GALLERY.iterdir() if entry.name.endswith(".toml"))
+
+# creases × vertices along a crease; open F = (m−1)(n−1), closed creases F = (m−1) n
+SIZES = {"fig01a": (9, 76, False), "fig01c": (19, 102, False), "fig01d": (12, 242, False), "fig09": (19, 40, True),
+         "fig10": (3, 3, False), "fig16": (17, 100, True), "fig19": (17, 400, True), "fig24a": (16, 200, True),
+         "fig24b": (7, 240, True), "fig27": (11, 200, False)}
+PRINCIPAL = {"fig01a", "fig01c", "fig01d", "fig05", "fig09", "fig10", "fig26", "fig27"}
+
+
+@pytest.fixture(scope="module")
+def results():
+    made = {}
+
+    def make(name):
+        if name not in made:
+            made[name] = plisse.design(str(GALLERY / f"{name}.toml"))
+        return made[name]
+
+    return make
+
+
+def test_the_designs_of_the_figures_are_all_there():
+    wanted = {*SIZES, "fig05", "fig15a", "fig15b", "fig26"}
+    assert wanted <= set(NAMES)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_design_is_exact_and_regular(name, results):
+    report = results(name).report
+    assert report.status == "exact", report.reasons
+    assert report.planarity.max <= 1e-11
+    assert report.angle_defect.max <= 1e-11
+    assert report.isometry <= 1e-10
+    assert report.min_sector_angle_deg > 15
+    assert 5 < report.opening_angle_deg.min
+    assert report.opening_angle_deg.max < 175
+    assert report.self_intersections == 0
+    if name in PRINCIPAL:
+        assert report.principal
+        assert report.principal_defect.max <= 1e-11
+
+
+@pytest.mark.parametrize("name", SIZES)
+def test_designs_have_the_sizes_of_figure_21(name, results):
+    creases, samples, closed = SIZES[name]
+    report = results(name).report
+    assert report.vertices == creases * samples
+    assert report.faces == (creases - 1) * (samples - (not closed))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_design_says_in_its_first_line_what_it_shows(name):
+    text = (GALLERY / f"{name}.toml").read_text(encoding="utf-8")
+    first = text.splitlines()[0]
+    assert first.startswith("# Fig. ")
+    assert first.rstrip().endswith(".")
+    assert tomllib.loads(text)
+
+
+@pytest.mark.parametrize("name", ["fig19", "fig27"])
+def test_developments_wind_over_themselves_as_in_the_paper(name, results):
+    sheet = results(name).report.development
+    assert sheet.overlaps
+    width, height = sheet.size_mm
+    assert 0 <= sheet.overlap_at_mm[0] <= width
+    assert 0 <= sheet.overlap_at_mm[1] <= height
+
+
+def test_creases_of_fig05_develop_into_ellipses(results):
+    structure = results("fig05").structure
+    for crease in structure.topology.creases:
+        x, y = (structure.development[crease.vertices] - structure.development[crease.vertices].mean(axis=0)).T
+        scale = np.abs([x, y]).max()
+        conic = np.stack([x * x, x * y, y * y, scale * x, scale * y, np.full_like(x, scale**2)], axis=1) / scale**2
+        _, values, rows = np.linalg.svd(conic, full_matrices=False)
+        assert values[-1] < 1e-9 * values[0]
+        a, b, c = rows[-1][:3]
+        assert b * b - 4 * a * c < 0  # an ellipse
+        assert np.hypot(a - c, b) > 1e-3 * abs(a + c)  # and no circle
+
+
+def test_fig10_is_one_conical_vertex(results):
+    structure = results("fig10").structure
+    topology, vertices = structure.topology, structure.vertices
+    centre, *ring = topology.stars[4][0]
+    spokes = vertices[ring] - vertices[centre]
+    normals = np.cross(spokes, np.roll(spokes, -1, axis=0))
+    normals /= norm(normals)[:, None]
+    # a cone of revolution touches all four faces: their normals make one angle with its axis
+    axis = np.linalg.lstsq(normals, np.array([1.0, 1, 1, 1]), rcond=None)[0]
+    signs = np.linalg.lstsq(normals * np.array([1, -1, -1, 1])[:, None], np.ones(4), rcond=None)[0]
+    touching = min(np.abs(normals @ axis - 1).max(), np.abs(np.abs(normals @ signs) - 1).max())
+    assert touching < 1e-12
+
+
+def test_inclinations_of_fig16_change_the_sign_of_nothing_but_the_fold(results):
+    structure = results("fig16").structure
+    edges = structure.topology.edges
+    folds = fold_angles(structure.topology, structure.vertices)
+    for number, crease in enumerate(structure.topology.creases[1:-1]):
+        own = folds[np.isin(edges.vertices, crease.vertices).all(axis=1) & edges.is_crease]
+        assert (np.sign(own) == np.sign(own[0])).all()
+        assert np.sign(own[0]) == (-1) ** number * np.sign(folds[np.isin(
+            edges.vertices, structure.topology.creases[1].vertices).all(axis=1) & edges.is_crease][0])
+
+
+def test_fig15a_follows_asymptotic_curves(results):
+    """Upright folds: the principal normal of each guiding curve is tangent to the surface that the curves sweep out."""
+    from plisse.geometry.frames import curvature_vectors
+    from plisse.geometry.polyline import tangents
+    from plisse.geometry.vectors import unit
+
+    pattern = results("fig15a").pattern
+    middle = pattern.curves[6]
+    across = unit(pattern.curves[7] - pattern.curves[5])
+    normal = unit(np.cross(tangents(middle), across))
+    binormal = unit(curvature_vectors(middle)[2:-2])
+    assert np.abs(np.sum(normal[2:-2] * binormal, axis=1)).min() > np.cos(np.radians(5))
+
+
+@pytest.mark.parametrize("name", ["fig01d", "fig19"])
+def test_the_paper_method_reaches_the_defects_that_the_paper_prints(name):
+    from plisse.io.designs import read_design
+
+    iterations = {"fig01d": 20, "fig19": 10}[name]
+    overrides = ["solve.method=paper", f"solve.iterations={iterations}"]
+    if name == "fig19":
+        overrides.append("pattern.samples=200")  # half the columns: 3 s instead of 13
+    report = plisse.design(read_design(str(GALLERY / f"{name}.toml"), overrides)).report
+    planarity, angle = {"fig01d": (8.3e-5, 1.4e-2), "fig19": (1.7e-3, 4.3e-2)}[name]
+    assert report.planarity.max < planarity
+    assert report.angle_defect.max < angle
+    assert report.status == "approximate"
