@@ -8,7 +8,8 @@ import numpy as np
 
 from plisse.assess import assess, start_defects
 from plisse.errors import Infeasible
-from plisse.io.designs import check_design, design_from_dict, read_design
+from plisse.io.consistency import check_design
+from plisse.io.designs import design_from_dict, read_design
 from plisse.layout.guiding import Guiding, guiding
 from plisse.recipe import Design
 from plisse.result import Report, Result

@@ -1,21 +1,18 @@
 """DESIGN.toml: reading, overriding and checking recipes, with one sentence for every mistake."""
 
-import math
-import re
 import tomllib
 from collections.abc import Iterable
-from itertools import pairwise
 from pathlib import Path
 
 import msgspec
 
 from plisse.errors import InvalidDesign
+from plisse.io.consistency import check_design
+from plisse.io.mistakes import refuse_non_finite, sentence
 from plisse.io.polylines import read_polyline
-from plisse.recipe import Arc, ClosedForm, Curve, Design, Ellipse, Helix, Pattern, Points, Solve, Spline, TorusKnot
+from plisse.recipe import Design, Points, Spline
 
 __all__ = ["design_from_dict", "parse_assignment", "read_design"]
-
-MAX_VERTICES = 250_000
 
 
 def read_design(path: str | Path, overrides: Iterable[str] = ()) -> Design:
@@ -43,61 +40,12 @@ def read_design(path: str | Path, overrides: Iterable[str] = ()) -> Design:
 
 def design_from_dict(data: dict, base: str | Path = ".") -> Design:
     """The checked design in nested dictionaries as TOML holds them; file names are relative to `base`."""
-    _refuse_non_finite(data, "")
+    refuse_non_finite(data)
     try:
         design = msgspec.convert(data, Design)
     except msgspec.ValidationError as error:
-        raise InvalidDesign(_sentence(str(error), data)) from None
+        raise InvalidDesign(sentence(str(error), data)) from None
     return check_design(_with_points(design, Path(base)))
-
-
-def check_design(design: Design) -> Design:
-    """The same design; raises InvalidDesign where its numbers contradict each other."""
-    if design.closed_form is not None:
-        if design.curve is not None or design.pattern is not None:
-            raise InvalidDesign("a design has either closed_form or curve and pattern, but this one has both; remove one")
-        _check_size("closed_form", design.closed_form)
-        return design
-    if design.curve is None or design.pattern is None:
-        section = "curve" if design.curve is None else "pattern"
-        raise InvalidDesign(f"{section} is missing; add a [{section}] section, as `plisse gallery fig01d` shows")
-    _check_size("pattern", design.pattern)
-    _check_pattern(design.pattern)
-    if design.curve.closed and design.pattern.samples < 5:
-        raise InvalidDesign(f"pattern.samples is {design.pattern.samples}, too few for a closed curve; give at least 5")
-    if design.solve.cut is not None and not design.curve.closed:
-        raise InvalidDesign("solve.cut is set, but the curve is open and needs no cut; remove it or set curve.closed")
-    _check_curve(design.curve)
-    return design
-
-
-def _check_size(section: str, grid: Pattern | ClosedForm) -> None:
-    vertices = grid.creases * grid.samples
-    if vertices > MAX_VERTICES:
-        raise InvalidDesign(f"{section}.creases × {section}.samples = {vertices} vertices is more than plisse solves "
-                            f"({MAX_VERTICES}, about a minute and 2 GB); lower {section}.samples")
-
-
-def _check_pattern(pattern: Pattern) -> None:
-    if isinstance(pattern.theta, list) and len(pattern.theta) != pattern.creases:
-        raise InvalidDesign(f"pattern.theta has {len(pattern.theta)} values, but pattern.creases is "
-                            f"{pattern.creases}; give one value, or one per crease")
-    _check_width(pattern.width, pattern.creases)
-
-
-def _check_curve(curve: Curve) -> None:
-    if isinstance(curve, Spline | Points):
-        _check_points(curve)
-    elif isinstance(curve, Helix) and curve.closed:
-        raise InvalidDesign("curve.closed is true, but a helix never closes; set curve.closed = false")
-    elif isinstance(curve, Arc | Ellipse) and curve.closed and curve.angle < 360:
-        raise InvalidDesign(f"curve.angle is {curve.angle} degrees, but curve.closed asks for a closed curve; "
-                            "set curve.closed = false or curve.angle = 360")
-    elif isinstance(curve, TorusKnot) and math.gcd(curve.p, curve.q) != 1:
-        raise InvalidDesign(f"curve.p = {curve.p} and curve.q = {curve.q} have a common divisor, so the torus knot "
-                            "would run over itself; give numbers without one")
-    elif isinstance(curve, TorusKnot) and curve.r >= curve.R:
-        raise InvalidDesign(f"curve.r = {curve.r} is not smaller than curve.R = {curve.R}; give a thinner tube")
 
 
 def parse_assignment(text: str) -> tuple[list[str], object]:
@@ -131,131 +79,6 @@ def _with_points(design: Design, base: Path) -> Design:
         return design
     points = read_polyline(base / curve.file)
     return msgspec.structs.replace(design, curve=msgspec.structs.replace(curve, points=points.tolist(), file=None))
-
-
-def _check_points(curve: Spline | Points) -> None:
-    points = curve.points or []
-    least = 4 if curve.closed else 3
-    if len(points) < least:
-        raise InvalidDesign(f"curve.points has {len(points)} points; give at least {least}")
-    if len(points) > 100_000:
-        raise InvalidDesign(f"curve.points has {len(points)} points; give at most 100000")
-    last = len(points) if curve.closed and points[0] != points[-1] else len(points) - 1
-    for i in range(last):
-        j = (i + 1) % len(points)
-        if points[i] == points[j]:
-            raise InvalidDesign(f"curve.points[{i}] and curve.points[{j}] are the same point {points[i]}; remove one")
-    size = max(max(p[k] for p in points) - min(p[k] for p in points) for k in range(3))
-    largest = max(abs(x) for p in points for x in p)
-    if largest > 1e12 or size < 1e-9 * largest or size < 1e-12:
-        raise InvalidDesign(f"curve.points span {size:g} model units at coordinates up to {largest:g}; "
-                            "that is lost in rounding, so scale or move the curve")
-
-
-def _check_width(width: object, creases: int) -> None:
-    if not isinstance(width, list):
-        return
-    tables = [isinstance(entry, list) for entry in width]
-    if any(tables) and not all(tables):
-        raise InvalidDesign("pattern.width mixes lengths and [position, width] rows; give one kind")
-    if not all(tables) or not width:
-        if len(width) != creases - 1:
-            raise InvalidDesign(f"pattern.width has {len(width)} values, but {creases} creases have {creases - 1} "
-                                "strips between them; give one value, one per strip, or a table [[position, width], …]")
-        return
-    for k, row in enumerate(width):
-        if len(row) != 2 or row[1] <= 0 or not 0 <= row[0] <= 1:
-            raise InvalidDesign(f"pattern.width[{k}] is {row}; give [position from 0 to 1 along the curve, width above 0]")
-    positions = [row[0] for row in width]
-    if len(width) < 2 or any(b <= a for a, b in pairwise(positions)):
-        raise InvalidDesign(f"pattern.width has the positions {positions}; give at least two, in increasing order")
-
-
-def _refuse_non_finite(value: object, path: str) -> None:
-    if isinstance(value, dict):
-        for key, item in value.items():
-            _refuse_non_finite(item, f"{path}.{key}" if path else str(key))
-    elif isinstance(value, list):
-        for k, item in enumerate(value):
-            _refuse_non_finite(item, f"{path}[{k}]")
-    elif isinstance(value, float) and not math.isfinite(value):
-        raise InvalidDesign(f"{path} is {value}; give a finite number")
-    elif isinstance(value, int) and abs(value) > 2**53:
-        raise InvalidDesign(f"{path} is {value}; give a number of sensible size")
-
-
-def _sentence(message: str, data: dict) -> str:
-    """One sentence from a validation message `what - at `$.path``."""
-    what, _, where = message.partition(" - at `$")
-    path = where.rstrip("`").lstrip(".").removesuffix("[...]")
-    what = what[0].lower() + what[1:].replace(" | null", "")
-    if match := re.match(r"object contains unknown field `(.*)`", what):
-        key = f"{path}.{match[1]}" if path else match[1]
-        known = _known_keys(path, data)
-        return f"{key} is not a key of a design; known {'here' if path else 'sections'}: {', '.join(known)}"
-    if match := re.match(r"object missing required field `(.*)`", what):
-        key = f"{path}.{match[1]}" if path else match[1]
-        hint = _hint(key, data)
-        return f"{key} is missing; add it" + (f" ({hint})" if hint else "")
-    hint = _hint(path, data)
-    found = _lookup(data, path)
-    shown = "" if isinstance(found, dict | list) or found is None else f", found {found!r}"
-    return f"{path or 'the design'}: {what}{shown}" + (f"; give {hint}" if hint else "")
-
-
-SECTIONS = {"": Design, "pattern": Pattern, "solve": Solve}
-KINDS = {"curve": Curve, "closed_form": ClosedForm}
-
-
-def _struct_at(path: str, data: dict) -> type | None:
-    section = path.split(".")[0].split("[")[0]
-    if section not in KINDS:
-        return SECTIONS.get(section)
-    entry = data.get(section)
-    kind = entry.get("kind") if isinstance(entry, dict) else None
-    return next((c for c in KINDS[section].__args__ if c.__struct_config__.tag == kind), None)
-
-
-def _known_keys(path: str, data: dict) -> list[str]:
-    struct = _struct_at(path, data)
-    if struct is None:
-        return _kinds(path)
-    return (["kind"] if path in KINDS else []) + [field.name for field in msgspec.structs.fields(struct)]
-
-
-def _kinds(path: str) -> list[str]:
-    return [str(c.__struct_config__.tag) for c in KINDS[path.split(".")[0]].__args__]
-
-
-def _hint(path: str, data: dict) -> str:
-    """What the key wants, from the description that its type carries."""
-    if path.removesuffix(".kind") in KINDS:
-        return "kind = one of " + ", ".join(_kinds(path))
-    section, _, key = re.sub(r"\[.*", "", path).partition(".")
-    struct = _struct_at(section if key else "", data)
-    if struct is None:
-        return ""
-    field = next((f for f in msgspec.structs.fields(struct) if f.name == (key or section)), None)
-    return _description(msgspec.inspect.type_info(field.type)) if field else ""
-
-
-def _description(info: msgspec.inspect.Type) -> str:
-    if isinstance(info, msgspec.inspect.Metadata):
-        return (info.extra_json_schema or {}).get("description", "") or _description(info.type)
-    if isinstance(info, msgspec.inspect.UnionType):
-        return next((text for text in map(_description, info.types) if text), "")
-    return "true or false" if isinstance(info, msgspec.inspect.BoolType) else ""
-
-
-def _lookup(data: object, path: str) -> object:
-    for key in re.findall(r"[^.\[\]]+", path):
-        if isinstance(data, dict):
-            data = data.get(key)
-        elif isinstance(data, list) and key.isdigit() and int(key) < len(data):
-            data = data[int(key)]
-        else:
-            return None
-    return data
 
 
 def _kind(curve: Spline | Points) -> str:

@@ -1,0 +1,98 @@
+"""What the numbers of a design must be to each other, beyond the type of each."""
+
+import math
+from itertools import pairwise
+
+from plisse.errors import InvalidDesign
+from plisse.recipe import Arc, ClosedForm, Curve, Design, Ellipse, Helix, Pattern, Points, Spline, TorusKnot
+
+__all__ = ["check_design"]
+
+MAX_VERTICES = 250_000
+
+
+def check_design(design: Design) -> Design:
+    """The same design; raises InvalidDesign where its numbers contradict each other."""
+    if design.closed_form is not None:
+        if design.curve is not None or design.pattern is not None:
+            raise InvalidDesign("a design has either closed_form or curve and pattern, but this one has both; remove one")
+        _check_size("closed_form", design.closed_form)
+        return design
+    if design.curve is None or design.pattern is None:
+        section = "curve" if design.curve is None else "pattern"
+        raise InvalidDesign(f"{section} is missing; add a [{section}] section, as `plisse gallery fig01d` shows")
+    _check_size("pattern", design.pattern)
+    _check_pattern(design.pattern)
+    if design.curve.closed and design.pattern.samples < 5:
+        raise InvalidDesign(f"pattern.samples is {design.pattern.samples}, too few for a closed curve; give at least 5")
+    if design.solve.cut is not None and not design.curve.closed:
+        raise InvalidDesign("solve.cut is set, but the curve is open and needs no cut; remove it or set curve.closed")
+    _check_curve(design.curve)
+    return design
+
+
+def _check_size(section: str, grid: Pattern | ClosedForm) -> None:
+    vertices = grid.creases * grid.samples
+    if vertices > MAX_VERTICES:
+        raise InvalidDesign(f"{section}.creases × {section}.samples = {vertices} vertices is more than plisse solves "
+                            f"({MAX_VERTICES}, about a minute and 2 GB); lower {section}.samples")
+
+
+def _check_pattern(pattern: Pattern) -> None:
+    if isinstance(pattern.theta, list) and len(pattern.theta) != pattern.creases:
+        raise InvalidDesign(f"pattern.theta has {len(pattern.theta)} values, but pattern.creases is "
+                            f"{pattern.creases}; give one value, or one per crease")
+    _check_width(pattern.width, pattern.creases)
+
+
+def _check_curve(curve: Curve) -> None:
+    if isinstance(curve, Spline | Points):
+        _check_points(curve)
+    elif isinstance(curve, Helix) and curve.closed:
+        raise InvalidDesign("curve.closed is true, but a helix never closes; set curve.closed = false")
+    elif isinstance(curve, Arc | Ellipse) and curve.closed and curve.angle < 360:
+        raise InvalidDesign(f"curve.angle is {curve.angle} degrees, but curve.closed asks for a closed curve; "
+                            "set curve.closed = false or curve.angle = 360")
+    elif isinstance(curve, TorusKnot) and math.gcd(curve.p, curve.q) != 1:
+        raise InvalidDesign(f"curve.p = {curve.p} and curve.q = {curve.q} have a common divisor, so the torus knot "
+                            "would run over itself; give numbers without one")
+    elif isinstance(curve, TorusKnot) and curve.r >= curve.R:
+        raise InvalidDesign(f"curve.r = {curve.r} is not smaller than curve.R = {curve.R}; give a thinner tube")
+
+
+def _check_points(curve: Spline | Points) -> None:
+    points = curve.points or []
+    least = 4 if curve.closed else 3
+    if len(points) < least:
+        raise InvalidDesign(f"curve.points has {len(points)} points; give at least {least}")
+    if len(points) > 100_000:
+        raise InvalidDesign(f"curve.points has {len(points)} points; give at most 100000")
+    last = len(points) if curve.closed and points[0] != points[-1] else len(points) - 1
+    for i in range(last):
+        j = (i + 1) % len(points)
+        if points[i] == points[j]:
+            raise InvalidDesign(f"curve.points[{i}] and curve.points[{j}] are the same point {points[i]}; remove one")
+    size = max(max(p[k] for p in points) - min(p[k] for p in points) for k in range(3))
+    largest = max(abs(x) for p in points for x in p)
+    if largest > 1e12 or size < 1e-9 * largest or size < 1e-12:
+        raise InvalidDesign(f"curve.points span {size:g} model units at coordinates up to {largest:g}; "
+                            "that is lost in rounding, so scale or move the curve")
+
+
+def _check_width(width: object, creases: int) -> None:
+    if not isinstance(width, list):
+        return
+    tables = [isinstance(entry, list) for entry in width]
+    if any(tables) and not all(tables):
+        raise InvalidDesign("pattern.width mixes lengths and [position, width] rows; give one kind")
+    if not all(tables) or not width:
+        if len(width) != creases - 1:
+            raise InvalidDesign(f"pattern.width has {len(width)} values, but {creases} creases have {creases - 1} "
+                                "strips between them; give one value, one per strip, or a table [[position, width], …]")
+        return
+    for k, row in enumerate(width):
+        if len(row) != 2 or row[1] <= 0 or not 0 <= row[0] <= 1:
+            raise InvalidDesign(f"pattern.width[{k}] is {row}; give [position from 0 to 1 along the curve, width above 0]")
+    positions = [row[0] for row in width]
+    if len(width) < 2 or any(b <= a for a, b in pairwise(positions)):
+        raise InvalidDesign(f"pattern.width has the positions {positions}; give at least two, in increasing order")

@@ -1,0 +1,98 @@
+"""One sentence for a value of the wrong kind: the key, what was found, and what to give instead."""
+
+import math
+import re
+
+import msgspec
+
+from plisse.errors import InvalidDesign
+from plisse.recipe import ClosedForm, Curve, Design, Pattern, Solve
+
+__all__ = ["refuse_non_finite", "sentence"]
+
+SECTIONS = {"": Design, "pattern": Pattern, "solve": Solve}
+KINDS = {"curve": Curve, "closed_form": ClosedForm}
+
+
+def refuse_non_finite(value: object, path: str = "") -> None:
+    """Raise InvalidDesign for the first nan, infinity or absurd integer in nested dictionaries and lists."""
+    if isinstance(value, dict):
+        for key, item in value.items():
+            refuse_non_finite(item, f"{path}.{key}" if path else str(key))
+    elif isinstance(value, list):
+        for k, item in enumerate(value):
+            refuse_non_finite(item, f"{path}[{k}]")
+    elif isinstance(value, float) and not math.isfinite(value):
+        raise InvalidDesign(f"{path} is {value}; give a finite number")
+    elif isinstance(value, int) and abs(value) > 2**53:
+        raise InvalidDesign(f"{path} is {value}; give a number of sensible size")
+
+
+def sentence(message: str, data: dict) -> str:
+    """One sentence from a validation message `what - at `$.path``."""
+    what, _, where = message.partition(" - at `$")
+    path = where.rstrip("`").lstrip(".").removesuffix("[...]")
+    what = what[0].lower() + what[1:].replace(" | null", "")
+    if match := re.match(r"object contains unknown field `(.*)`", what):
+        key = f"{path}.{match[1]}" if path else match[1]
+        known = _known_keys(path, data)
+        return f"{key} is not a key of a design; known {'here' if path else 'sections'}: {', '.join(known)}"
+    if match := re.match(r"object missing required field `(.*)`", what):
+        key = f"{path}.{match[1]}" if path else match[1]
+        hint = _hint(key, data)
+        return f"{key} is missing; add it" + (f" ({hint})" if hint else "")
+    hint = _hint(path, data)
+    found = _lookup(data, path)
+    shown = "" if isinstance(found, dict | list) or found is None else f", found {found!r}"
+    return f"{path or 'the design'}: {what}{shown}" + (f"; give {hint}" if hint else "")
+
+
+def _struct_at(path: str, data: dict) -> type | None:
+    section = path.split(".")[0].split("[")[0]
+    if section not in KINDS:
+        return SECTIONS.get(section)
+    entry = data.get(section)
+    kind = entry.get("kind") if isinstance(entry, dict) else None
+    return next((c for c in KINDS[section].__args__ if c.__struct_config__.tag == kind), None)
+
+
+def _known_keys(path: str, data: dict) -> list[str]:
+    struct = _struct_at(path, data)
+    if struct is None:
+        return _kinds(path)
+    return (["kind"] if path in KINDS else []) + [field.name for field in msgspec.structs.fields(struct)]
+
+
+def _kinds(path: str) -> list[str]:
+    return [str(c.__struct_config__.tag) for c in KINDS[path.split(".")[0]].__args__]
+
+
+def _hint(path: str, data: dict) -> str:
+    """What the key wants, from the description that its type carries."""
+    if path.removesuffix(".kind") in KINDS:
+        return "kind = one of " + ", ".join(_kinds(path))
+    section, _, key = re.sub(r"\[.*", "", path).partition(".")
+    struct = _struct_at(section if key else "", data)
+    if struct is None:
+        return ""
+    field = next((f for f in msgspec.structs.fields(struct) if f.name == (key or section)), None)
+    return _description(msgspec.inspect.type_info(field.type)) if field else ""
+
+
+def _description(info: msgspec.inspect.Type) -> str:
+    if isinstance(info, msgspec.inspect.Metadata):
+        return (info.extra_json_schema or {}).get("description", "") or _description(info.type)
+    if isinstance(info, msgspec.inspect.UnionType):
+        return next((text for text in map(_description, info.types) if text), "")
+    return "true or false" if isinstance(info, msgspec.inspect.BoolType) else ""
+
+
+def _lookup(data: object, path: str) -> object:
+    for key in re.findall(r"[^.\[\]]+", path):
+        if isinstance(data, dict):
+            data = data.get(key)
+        elif isinstance(data, list) and key.isdigit() and int(key) < len(data):
+            data = data[int(key)]
+        else:
+            return None
+    return data
