@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from plisse.geometry.vectors import norm
 from plisse.measure.deviation import crease_deviation
 from plisse.measure.measurements import Measurements, measure
 from plisse.measure.planarity import planarity_defect
@@ -16,6 +17,7 @@ from plisse.structure.pleated import PleatedStructure
 __all__ = ["assess", "spread", "start_defects"]
 
 ISOMETRIC = 1e-9
+COARSEST = 20.0
 
 
 def assess(structure: PleatedStructure, *, principal: bool = False, guides: np.ndarray | None = None,
@@ -31,7 +33,7 @@ def assess(structure: PleatedStructure, *, principal: bool = False, guides: np.n
     exact = max(defect.max for defect in [*defects, *([kawasaki] if principal else [])]) <= EXACT
     deviation = _deviation(structure, guides, amplitude)
     reasons = [*_inexact(structure, found, principal), *_irregular(structure, found), *_not_isometric(found),
-               *_astray(deviation)]
+               *_astray(deviation), *_too_coarse(guides, amplitude)]
     degrees = np.degrees(found.openings)
     return Report(
         status="exact" if not reasons else "infeasible" if exact and not _astray(deviation) else "approximate",
@@ -125,6 +127,15 @@ def _astray(deviation: Spread | None) -> list[str]:
         return []
     return [f"creases stray up to {deviation.max:.1f} amplitudes from their guiding curves (limit {FAR:g}), so this is not "
             "the shape that was asked for; less torsion, fewer creases or a design that is not principal help"]
+
+
+def _too_coarse(guides: np.ndarray | None, amplitude: float) -> list[str]:
+    """Folds much smaller than the distance between vertices: exact perhaps, but no picture of the curves."""
+    step = 0.0 if guides is None else float(norm(np.diff(guides, axis=1)).mean())
+    if step <= COARSEST * amplitude:
+        return []
+    return [f"vertices along a crease are {step / amplitude:.0f} amplitudes apart (limit {COARSEST:g}), so the folds are lost "
+            "between them; raise pattern.amplitude to about half of pattern.width, or raise pattern.samples"]
 
 
 def _deviation(structure: PleatedStructure, guides: np.ndarray | None, amplitude: float) -> Spread | None:
