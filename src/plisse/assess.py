@@ -134,8 +134,8 @@ def _too_coarse(guides: np.ndarray | None, amplitude: float) -> list[str]:
     step = 0.0 if guides is None else float(norm(np.diff(guides, axis=1)).mean())
     if step <= COARSEST * amplitude:
         return []
-    return [f"vertices along a crease are {step / amplitude:.0f} amplitudes apart (limit {COARSEST:g}), so the folds are lost "
-            "between them; raise pattern.amplitude to about half of pattern.width, or raise pattern.samples"]
+    return [f"vertices along a crease are {step / amplitude:.0f} amplitudes apart (limit {COARSEST:g}), so the folds are "
+            "lost between them; raise pattern.amplitude to about half of pattern.width, or raise pattern.samples"]
 
 
 def _deviation(structure: PleatedStructure, guides: np.ndarray | None, amplitude: float) -> Spread | None:

@@ -19,7 +19,3 @@ class InvalidStructure(PlisseError, ValueError):
 
 class Infeasible(PlisseError, ArithmeticError):
     """Geometry that breaks down on the way: a pattern that degenerates, a strip that dies."""
-
-
-class MissingExtra(PlisseError, ImportError):
-    """An optional package is needed; the message says what to install for what."""

@@ -62,7 +62,8 @@ def test_a_sphere_with_outward_normals_bends_by_minus_one_over_its_radius():
 
 def test_the_known_part_ends_at_rims_and_caps():
     assert Cylinder(1, 2).project(np.array([[1, 0, 0.99], [1, 0, 1.01]])).known.tolist() == [True, False]
-    assert Sphere(1, 1).project(np.array([[np.sin(t), 0, np.cos(t)] for t in (0.99, 1.01)])).known.tolist() == [True, False]
+    around = np.array([[np.sin(angle), 0, np.cos(angle)] for angle in (0.99, 1.01)])
+    assert Sphere(1, 1).project(around).known.tolist() == [True, False]
     assert Cone(0.5, 1, 2).project(np.array([[0.2, 0, 0.5], [0.7, 0, 1.3]])).known.tolist() == [False, True]
     assert HILLS.project(np.array([[1.4, 0, 9], [1.6, 0, 9]])).known.tolist() == [True, False]
 
@@ -96,12 +97,12 @@ def errors(kind, name, cells):
 @pytest.mark.parametrize("name", FITTED)
 def test_fits_converge_in_fourth_order_and_their_bending_in_second(name):
     kind, surface = FITTED[name]
-    sizes = np.array([20, 40, 80])
+    sizes = np.array([16, 32, 64])
     distance, bending = np.array([errors(kind, surface, cells) for cells in sizes]).T
     order = -np.polyfit(np.log(sizes), np.log(np.stack([distance, bending], axis=1)), 1)[0]
     assert order[0] > 3.3
     assert order[1] > 1.7
-    assert bending[-1] < 0.02
+    assert bending[-1] < 0.03
 
 
 @pytest.mark.parametrize("kind", [JetSurface, GraphSurface])
@@ -133,7 +134,8 @@ def test_jets_survive_noise_and_uneven_vertices():
     u = np.linspace(0, 1, 41) ** 1.5  # cells seven times smaller at one end
     x, y = np.meshgrid(3 * u - 1.5, np.linspace(-1, 1, 27), indexing="ij")
     uneven = grid_mesh(HILLS.project(np.stack([x, y, 0 * x], axis=-1).reshape(-1, 3)).positions.reshape(41, 27, 3))
-    noisy = ReferenceMesh(mesh.vertices + 0.01 * mesh.edge_length * rng.normal(size=mesh.vertices.shape), mesh.triangles)
+    noise = 0.01 * mesh.edge_length * rng.normal(size=mesh.vertices.shape)
+    noisy = ReferenceMesh(mesh.vertices + noise, mesh.triangles)
     for bad, bound in ((uneven, 0.06), (noisy, 0.2)):
         found = JetSurface(bad).project(bad.corners.mean(axis=1))
         truth = HILLS.project(found.positions)
@@ -151,7 +153,7 @@ def test_points_far_away_reach_the_jets_by_the_nearest_vertex():
 
 def test_the_graph_runs_on_smoothly_beyond_the_boundary():
     surface = GraphSurface(HILLS.mesh(40))
-    line = np.stack([np.linspace(1.3, 1.5 + 0.9 * 0.15 * surface.diagonal, 200), 0 * np.ones(200), 0 * np.ones(200)], axis=1)
+    line = np.linspace(1.3, 1.5 + 0.9 * 0.15 * surface.diagonal, 200)[:, None] * [1, 0, 0]
     at = surface.project(line)
     assert not at.known[-1]
     bend = norm(at.bending.reshape(-1, 9))
@@ -203,9 +205,9 @@ def test_the_outline_knows_holes_corners_and_distances():
     assert Outline(Sphere(1).mesh(16)).inside(points).all()
 
 
-@pytest.mark.parametrize("text", ["x", "3", "-x + +y", "x*y/3 - 2*y", "x**3*y**2", "2**x", "(1+x*x)**y", "sin(x)*cos(2*y)",
-                                  "tan(0.3*x)", "exp(x-y)", "log(3+x)", "sqrt(4+x*y)", "abs(x+2)", "x**0", "x**1",
-                                  "(-2-x)**3", "1/(3+y)", "pi*x**-2", "1e-1*x**2.0"])
+@pytest.mark.parametrize("text", ["x", "3", "-x + +y", "x*y/3 - 2*y", "x**3*y**2", "2**x", "(1+x*x)**y",
+                                  "sin(x)*cos(2*y)", "tan(0.3*x)", "exp(x-y)", "log(3+x)", "sqrt(4+x*y)", "abs(x+2)",
+                                  "x**0", "x**1", "(-2-x)**3", "1/(3+y)", "pi*x**-2", "1e-1*x**2.0"])
 def test_expressions_are_differentiated_exactly(text):
     heights = height_expression(text)
     rng = np.random.default_rng(0)
@@ -224,9 +226,10 @@ def test_expressions_are_differentiated_exactly(text):
 @pytest.mark.parametrize("text", [
     "__import__('os').system('true')", "open('/etc/passwd')", "().__class__.__bases__[0]", "x.__class__", "eval('1')",
     "exec('1')", "lambda: 0", "[x for x in (1,)]", "x if y else 1", "f'{x}'", "globals()", "sin.__call__(x)",
-    "(x := 1)", "x; y", "import os", "sin(x, y)", "sin(a=x)", "sin(*[x])", "x and y", "x < y", "x @ y", "x // y", "x % y",
-    "x ^ 2", "~x", "'x'", "True", "1j", "None", "...", "z", "e", "x[0]", "{x}", "await x", "1e999", "10**99999999999999999",
-    "9" * 999, "x" * 1001, "(" * 400 + "x" + ")" * 400, "-" * 500 + "x", "x" + "+x" * 300, "", "   ", "x\0", "sin",
+    "(x := 1)", "x; y", "import os", "sin(x, y)", "sin(a=x)", "sin(*[x])", "x and y", "x < y", "x @ y", "x // y",
+    "x % y", "x ^ 2", "~x", "'x'", "True", "1j", "None", "...", "z", "e", "x[0]", "{x}", "await x", "1e999",
+    "10**99999999999999999", "9" * 999, "x" * 1001,
+    "(" * 400 + "x" + ")" * 400, "-" * 500 + "x", "x" + "+x" * 300, "", "   ", "x\0", "sin",
     "\ud800"])
 def test_anything_but_a_formula_is_refused_in_one_sentence(text):
     with pytest.raises(InvalidDesign) as caught:

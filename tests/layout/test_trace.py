@@ -44,7 +44,8 @@ def test_sphere_curves_are_circles_of_radius_r_sin_theta(degrees, side):
 def test_the_smooth_tracer_is_of_fourth_order():
     exact = circle(1.0, 0.7, 1, START, AHEAD)
     steps = np.array([0.2, 0.1, 0.05, 0.025])
-    misses = [exact(trace(Sphere(1.0), START, AHEAD, 0.7, step=h, length=2.4, both=False)[0].points).max() for h in steps]
+    curves = [trace(Sphere(1.0), START, AHEAD, 0.7, step=step, length=2.4, both=False)[0] for step in steps]
+    misses = [exact(curve.points).max() for curve in curves]
     assert np.polyfit(np.log(steps), np.log(misses), 1)[0] > 3.7
 
 
@@ -52,13 +53,14 @@ def test_the_smooth_tracer_is_of_fourth_order():
 def test_cylinder_curves_solve_the_equation_of_their_angle(side):
     """On an unrolled cylinder the direction turns by κ_g = −σ cot θ cos² α / R, α its angle with the circles."""
     theta, radius, slope = np.radians(60), 1.5, 0.9
-    curve = trace(Cylinder(radius, 100.0), [[radius, 0, 0]], [[0, np.cos(slope), np.sin(slope)]], theta, side, length=4.0,
-                  both=False, step=0.02)[0]
+    ahead = [[0, np.cos(slope), np.sin(slope)]]
+    curve = trace(Cylinder(radius, 100.0), [[radius, 0, 0]], ahead, theta, side, length=4.0, both=False, step=0.02)[0]
 
     def derivative(_, state):
         return [np.cos(state[2]), np.sin(state[2]), -side / np.tan(theta) * np.cos(state[2]) ** 2 / radius]
 
-    solution = solve_ivp(derivative, (0, 4), [0, 0, slope], t_eval=np.linspace(0, 4, len(curve.points)), rtol=1e-11, atol=1e-12)
+    at = np.linspace(0, 4, len(curve.points))
+    solution = solve_ivp(derivative, (0, 4), [0, 0, slope], t_eval=at, rtol=1e-11, atol=1e-12)
     unrolled = radius * np.unwrap(np.arctan2(curve.points[:, 1], curve.points[:, 0]))
     np.testing.assert_allclose(unrolled, solution.y[0], atol=1e-7)
     np.testing.assert_allclose(curve.points[:, 2], solution.y[1], atol=1e-7)
@@ -120,6 +122,11 @@ def test_boundary_points_lie_on_the_boundary():
     assert beyond.points[-1, 1] > 1.1
 
 
+def compact(vertices, faces):
+    used, index = np.unique(faces, return_inverse=True)
+    return vertices[used], index.reshape(-1, 3)
+
+
 def stops(surface, start, ahead, degrees, **options):
     return trace(surface, [start], [ahead], np.radians(degrees), both=False, **options)[0].stop
 
@@ -131,6 +138,7 @@ def test_every_curve_ends_with_a_named_stop():
     assert stops(Sphere(1), [1, 0, 0], [0, 1, 0], 1.2) is Stop.CURLED_UP
     assert stops(Torus(3, 1), [4, 0, 0], [0, 0.3, 1], 35, length=200) is Stop.CURLED_UP
     assert stops(Cone(0.5, 0, 3), [np.sin(0.5), 0, np.cos(0.5)], [-np.sin(0.5), 0, -np.cos(0.5)], 90) is Stop.LEFT_CHART
+    assert stops(JetSurface(HILLS.mesh(20)), [0, 0, 0], [0, 1, 0], 60, beyond=True) is Stop.LEFT_CHART
     assert [str(stop) for stop in Stop] == [stop.value for stop in Stop]
     assert "boundary" in str(Stop.BOUNDARY)
 
@@ -151,13 +159,13 @@ def test_what_cannot_be_traced_is_refused_in_one_sentence():
 def test_curves_on_fitted_surfaces_converge_to_those_of_the_formula(kind, order):
     start, ahead, theta = HILLS.project(np.array([[-0.8, -0.3, 0]])).positions, [[1, 0.4, 0.0]], np.radians(60)
     exact = trace(HILLS, start, ahead, theta, length=1.8, step=0.01, both=False)[0].points
-    cells = np.array([20, 40, 80])
+    cells = np.array([16, 32, 64])
     misses = []
     for count in cells:
-        found = trace(kind(HILLS.mesh(count)), start, ahead, theta, length=1.8, step=0.03, both=False)[0].points
+        found = trace(kind(HILLS.mesh(count)), start, ahead, theta, length=1.8, step=0.06, both=False)[0].points
         misses.append(distance_to_polyline(found, exact).max())
     assert -np.polyfit(np.log(cells), np.log(misses), 1)[0] > order
-    assert misses[-1] < 1e-3
+    assert misses[-1] < 2e-3
 
 
 @pytest.mark.parametrize("degrees", [30, 60, 90])
@@ -165,20 +173,20 @@ def test_curves_on_fitted_surfaces_converge_to_those_of_the_formula(kind, order)
 def test_the_literal_tracer_converges_with_the_mesh(degrees, side):
     theta = np.radians(degrees)
     exact = circle(1.0, theta, side, START, AHEAD)
-    cells = np.array([16, 32, 64, 128])
+    cells = np.array([16, 32, 64])
     rng = np.random.default_rng(0)
     misses = []
     for count in cells:  # the mean over some turned meshes, for one curve's errors vary
         mesh = Sphere(1.0).mesh(int(count))
         miss = []
-        for turn in Rotation.random(8, random_state=rng).as_matrix():
+        for turn in Rotation.random(6, random_state=rng).as_matrix():
             turned = ReferenceMesh(mesh.vertices @ turn.T, mesh.triangles)
             start = unit(START)
             found = trace_literal(turned, start, AHEAD, theta, side, length=2 * np.pi * np.sin(theta), both=False)[0]
             miss.append(exact(found.points).max())
         misses.append(np.mean(miss))
     assert -np.polyfit(np.log(cells), np.log(misses), 1)[0] > 0.9
-    assert misses[-1] < 0.02
+    assert misses[-1] < 0.03
 
 
 def test_literal_curves_run_from_edge_to_edge_with_planes_at_the_angle():
@@ -229,6 +237,11 @@ def test_literal_curves_through_vertices_and_around_them_do_not_break():
     assert all(np.isfinite(curve.points).all() for curve in curves)
     assert {stop for curve in curves for stop in (curve.stop, curve.first_stop)} == {Stop.BOUNDARY}
     assert np.abs(curves[2].points[[0, -1]]).max() == pytest.approx(1, abs=1e-6)
+    on_edges = mesh.vertices[mesh.edges].mean(axis=1)
+    along = np.diff(mesh.vertices[mesh.edges], axis=1)[:, 0]
+    curves = trace_literal(mesh, on_edges, along + 1e-3 * np.eye(3)[0], np.radians(70))
+    assert all(np.isfinite(curve.points).all() for curve in curves)
+    assert {stop for curve in curves for stop in (curve.stop, curve.first_stop)} == {Stop.BOUNDARY}
     tight = trace_literal(Sphere(1).mesh(16), unit(START), AHEAD, np.radians(3), both=False)[0]
     assert tight.stop in (Stop.CURLED_UP, Stop.CLOSED, Stop.LENGTH)
     assert np.isfinite(tight.points).all()
@@ -288,5 +301,10 @@ def test_geodesics_that_make_no_sense_are_refused():
         geodesic(Sphere(1), [1, 0, 0], [2, 0, 0], 10)
     with pytest.raises(InvalidDesign, match="two points"):
         geodesic(Sphere(1), [1, 0, np.nan], [2, 0, 0], 10)
+    mesh = HILLS.mesh(40)
+    x, y, _ = mesh.corners.mean(axis=1).T
+    horseshoe = mesh.triangles[(np.abs(x) > 1) | (y < -0.6)]
+    with pytest.raises(Infeasible, match="leaves the surface"):
+        geodesic(JetSurface(ReferenceMesh(*compact(mesh.vertices, horseshoe))), [-1.3, 0.8, 0], [1.3, 0.8, 0], 10)
     with pytest.raises((Infeasible, InvalidDesign)):
         geodesic(Cone(0.5, 0.1, 3), [0, 0, -1], [1, 0, 2], 10)

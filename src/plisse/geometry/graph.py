@@ -4,20 +4,18 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.interpolate import BSpline, NdBSpline
-from scipy.sparse import csc_array, csr_array, kron
-from scipy.sparse.linalg import splu
+from scipy.interpolate import NdBSpline
 
 from plisse.errors import Infeasible
 from plisse.geometry.mesh import ReferenceMesh
 from plisse.geometry.monge import monge
 from plisse.geometry.outline import Outline
 from plisse.geometry.surface import SurfacePoints
+from plisse.geometry.thin_plate import smoothing_spline
 from plisse.geometry.vectors import dot, unit
 
 __all__ = ["GraphSurface", "facing_up"]
 
-DEGREE = 5
 MAX_CELLS = 220
 
 
@@ -118,69 +116,8 @@ class GraphSurface:
     @cached_property
     def _spline(self) -> NdBSpline:
         low, high = self.domain
-        edge = self._outline.mesh.edge_length
-        spacing = max(edge, float((high - low).max()) / MAX_CELLS)
-        one, two = (_Axis(a, b, max(3, int(np.ceil((b - a) / spacing)))) for a, b in zip(low, high, strict=True))
-        plane, z = self._plane[:, :2], self._plane[:, 2]
-        rows = _row_products(one.values(plane[:, 0]), two.values(plane[:, 1]))
-        energy = _energy(one, two, (self.decay * self.diagonal) ** -2)
-        density = len(z) / self._outline.mesh.area
-        strength = density * (self.smoothing * edge) ** 6
-        system = csc_array(rows.T @ rows + strength * energy)
-        factor = splu(system, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-        right = rows.T @ z
-        solution = factor.solve(right)
-        solution += factor.solve(right - system @ solution)
-        coefficients = solution.reshape(one.count, two.count)
-        return NdBSpline((one.knots, two.knots), coefficients, DEGREE, extrapolate=True)
-
-
-@dataclass(frozen=True)
-class _Axis:
-    """Uniform B-splines on [low, high] with `cells` knot spans."""
-
-    low: float
-    high: float
-    cells: int
-
-    @property
-    def count(self) -> int:
-        return self.cells + DEGREE
-
-    @property
-    def knots(self) -> np.ndarray:
-        return self.low + (self.high - self.low) / self.cells * np.arange(-DEGREE, self.cells + DEGREE + 1)
-
-    def values(self, at: np.ndarray) -> csr_array:
-        return csr_array(BSpline.design_matrix(np.clip(at, self.low, self.high), self.knots, DEGREE))
-
-    def energies(self) -> list[csr_array]:
-        """Gram matrices of the splines and of their derivatives up to the third, by Gauss's rule."""
-        node, weight = np.polynomial.legendre.leggauss(DEGREE + 1)
-        size = (self.high - self.low) / self.cells
-        at = (self.low + size * (np.arange(self.cells)[:, None] + 0.5 * (node + 1))).ravel()
-        root = np.sqrt(0.5 * size * np.tile(weight, self.cells))[:, None]
-        basis = BSpline(self.knots, np.eye(self.count), DEGREE)
-        grams = []
-        for order in range(4):
-            values = csr_array(root * basis(at, nu=order))
-            grams.append(csr_array(values.T @ values))
-        return grams
-
-
-def _energy(one: _Axis, two: _Axis, plate: float) -> csr_array:
-    """∫ |∂³z|² + plate |∂²z|² as a quadratic form in the spline coefficients."""
-    x, y = one.energies(), two.energies()
-    third = kron(x[3], y[0]) + 3 * kron(x[2], y[1]) + 3 * kron(x[1], y[2]) + kron(x[0], y[3])
-    second = kron(x[2], y[0]) + 2 * kron(x[1], y[1]) + kron(x[0], y[2])
-    return csr_array(third + plate * second)
-
-
-def _row_products(one: csr_array, two: csr_array) -> csr_array:
-    """Rows r of the result are kron(one[r], two[r]); every row has DEGREE + 1 entries."""
-    count, width = one.shape[0], DEGREE + 1
-    a, b = one.indices.reshape(count, width, 1), two.indices.reshape(count, 1, width)
-    values = one.data.reshape(count, width, 1) * two.data.reshape(count, 1, width)
-    columns = a.astype(np.int64) * two.shape[1] + b
-    return csr_array((values.ravel(), columns.ravel(), np.arange(count + 1) * width**2),
-                     shape=(count, one.shape[1] * two.shape[1]))
+        spacing = max(self.mesh.edge_length, float((high - low).max()) / MAX_CELLS)
+        density = len(self._plane) / self._outline.mesh.area
+        strength = density * (self.smoothing * self.mesh.edge_length) ** 6
+        return smoothing_spline(self._plane[:, :2], self._plane[:, 2], low, high, spacing, strength,
+                                (self.decay * self.diagonal) ** -2)

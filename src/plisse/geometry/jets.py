@@ -6,19 +6,18 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
+from plisse.geometry.jet_fit import fitted_jets
 from plisse.geometry.mesh import ReferenceMesh
 from plisse.geometry.outline import Outline
 from plisse.geometry.surface import SurfacePoints
-from plisse.geometry.vectors import dot, norm, unit
+from plisse.geometry.vectors import dot, norm
 
 __all__ = ["JetSurface"]
 
-POWERS = np.array([[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0, 2], [3, 0], [2, 1], [1, 2], [0, 3]])
-NEIGHBOURS = 48  # vertices that a cubic is fitted to
 OVERLAP = 40  # jets that may reach one vertex
 MARGIN = 0.03  # share of the reach by which a point may move before its neighbours are looked up again
 AT_MOST = 64  # jets that may reach any point
-FITTED, BLENDED = 1000, 250  # vertices and points treated at once: what fits into a processor's cache
+BLENDED = 250  # points treated at once: what fits into a processor's cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,27 +155,7 @@ class JetSurface:
 
     @cached_property
     def _fit(self) -> tuple[np.ndarray, np.ndarray]:
-        """Jet coefficients (V, 10) in units of the radius, and frames (V, 3, 3) with rows x, y, z."""
-        count = len(self.mesh.vertices)
-        parts = [self._fit_some(np.arange(i, min(i + FITTED, count))) for i in range(0, count, FITTED)]
-        return np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])
-
-    def _fit_some(self, which: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        vertices, normals = self.mesh.vertices, self.mesh.vertex_normals
-        near = self._tree.query(vertices[which], k=min(NEIGHBOURS, len(vertices)))[1]
-        gap = vertices[near] - vertices[which][:, None]
-        radius = self._radii[which][:, None]
-        support = np.minimum(1.15 * radius, 0.98 * norm(gap[:, -1:]))
-        weight = np.maximum(1 - dot(gap, gap) / support**2, 0) ** 4
-        weight[np.einsum("nki,ni->nk", normals[near], normals[which]) < 0.2] = 0
-        up = normals[which]
-        for _ in range(2):
-            frames = _frames(up)
-            x, y, z = np.moveaxis(np.einsum("nij,nkj->nki", frames, gap), -1, 0) / radius
-            monomials = np.stack([x**p * y**q for p, q in POWERS], axis=-1)
-            jets = _least_squares(monomials, weight, z)
-            up = unit(up - jets[:, 1:2] * frames[:, 0] - jets[:, 2:3] * frames[:, 1])
-        return jets, frames
+        return fitted_jets(self.mesh.vertices, self.mesh.vertex_normals, self._radii, self._tree)
 
     @property
     def _jets(self) -> np.ndarray:
@@ -185,19 +164,3 @@ class JetSurface:
     @property
     def _frames(self) -> np.ndarray:
         return self._fit[1]
-
-
-def _least_squares(monomials: np.ndarray, weight: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Coefficients (N, 10); cubic terms are held back slightly, so that sparse neighbourhoods stay determined."""
-    weighted = monomials * weight[..., None]
-    normal = np.swapaxes(weighted, 1, 2) @ monomials
-    damping = np.array([1e-14] * 3 + [1e-12] * 3 + [1e-9] * 4) * weight.sum(axis=1)[:, None]
-    normal[:, np.arange(10), np.arange(10)] += damping
-    return np.linalg.solve(normal, np.einsum("nkc,nk->nc", weighted, values)[..., None])[..., 0]
-
-
-def _frames(normals: np.ndarray) -> np.ndarray:
-    """Orthonormal frames (N, 3, 3) with rows x, y and the normal."""
-    axis = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
-    x = unit(np.cross(normals, axis))
-    return np.stack([x, np.cross(normals, x), normals], axis=1)

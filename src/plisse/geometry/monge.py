@@ -8,7 +8,7 @@ __all__ = ["monge"]
 def monge(slopes: np.ndarray, hessians: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Unit upward normals (N, 3) and bending tensors (N, 3, 3) from (zx, zy) and (zxx, zxy, zyy), component first.
 
-    With V = (1, 0, −zx nz …) the dual basis of the tangent plane, B = Σ (z_ij / W) dual_i ⊗ dual_j.
+    B is the Hessian of z over W = √(1 + zx² + zy²), restricted to the tangent plane.
     """
     zx, zy = slopes
     width = np.sqrt(1 + zx**2 + zy**2)

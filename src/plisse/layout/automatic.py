@@ -70,7 +70,8 @@ def centres(mesh: ReferenceMesh, surface: ChartedSurface, count: int = 20) -> It
         yield middle + distance * np.array([np.cos(angle), np.sin(angle)])
 
 
-def starting_rows(mesh: ReferenceMesh, surface: ChartedSurface, centre: np.ndarray | None, width: float) -> Rows:
+def starting_rows(mesh: ReferenceMesh, surface: ChartedSurface, centre: np.ndarray | None, width: float,
+                  parallel: bool = True) -> Rows:
     """Rows about a centre in the chart, or between the two boundary loops of an annulus when there is no centre."""
     places = surface.to_plane(mesh.vertices)[:, :2]
     if centre is not None:
@@ -84,7 +85,7 @@ def starting_rows(mesh: ReferenceMesh, surface: ChartedSurface, centre: np.ndarr
     if not (_goes_round_once(inner - middle) and _goes_round_once(outer - middle)):
         raise Infeasible("the two boundary loops are not seen once around from the middle of the inner one, so rows "
                          "cannot be interpolated between them; give a centre")
-    return rows_between(surface, inner, outer, middle, width)
+    return rows_between(surface, inner, outer, middle, width, parallel=parallel)
 
 
 def lay_out(rows: Rows, samples: AreaSamples, surface: ChartedSurface, sizes: Sizes, label: str = "",

@@ -28,7 +28,8 @@ def geodesic(surface: Surface, a, b, count: int, nodes: int = NODES) -> np.ndarr
     """Points (count, 3) at equal distances along a geodesic from a to b, both taken onto the surface.
 
     It starts from the chord, or from the shortest path along the edges where the surface is fitted to a mesh, and
-    relaxes: the tangential parts of all second differences vanish. Fourth order in the number of `nodes`.
+    relaxes: the tangential parts of all second differences vanish. Fourth order in the number of `nodes`. It is locally
+    shortest, no more, and may cross gaps of the mesh where the surface is continued over them.
     Raises Infeasible where no geodesic is found.
     """
     ends = np.array([a, b], dtype=float)

@@ -19,6 +19,7 @@ class GridFit:
     def __init__(self, shape: tuple[int, int], closed: bool, stencils: Sequence[np.ndarray]):
         self._shape = shape
         ordering = grid(*shape, closed_creases=closed).ordering
+        assert ordering is not None
         rank = np.empty(shape[0] * shape[1], np.int64)
         rank[np.argsort(ordering, kind="stable")] = np.arange(len(rank))
         self._rank = rank

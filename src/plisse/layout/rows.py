@@ -34,12 +34,16 @@ def lifted(surface: ChartedSurface, places: np.ndarray) -> SurfacePoints:
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """Curves around `centre` (2,) with `radii` (n, m) at `angles` (m,), in the chart; outward is away from it."""
+    """Curves around `centre` (2,) with `radii` (n, m) at `angles` (m,), in the chart; outward is away from it.
+
+    `spacing` (m,) is the gap wanted between rows at every angle, where that is not the width.
+    """
 
     centre: np.ndarray
     angles: np.ndarray
     radii: np.ndarray
     closed: bool
+    spacing: np.ndarray | None = None
 
     @property
     def places(self) -> np.ndarray:
@@ -132,14 +136,36 @@ def circles(surface: ChartedSurface, places: np.ndarray, centre: np.ndarray, wid
     return _filled(surface, places, centre, angles, inner, outer, width, closed)
 
 
-def rows_between(surface: ChartedSurface, inner: np.ndarray, outer: np.ndarray, centre: np.ndarray,
-                 width: float) -> Rows:
-    """Closed rows interpolated between two loops (N, 2), (N', 2) in the chart, both seen once around from a centre."""
+def rows_between(surface: ChartedSurface, inner: np.ndarray, outer: np.ndarray, centre: np.ndarray, width: float, *,
+                 parallel: bool = False) -> Rows:
+    """Closed rows between two loops (N, 2), (N', 2) in the chart, both seen once around from a centre.
+
+    Rows are interpolated, as many as the mean distance asks for, or `parallel` to the inner loop, going on beyond
+    the outer one until it is covered everywhere.
+    """
     columns = _columns(2 * np.pi * float(norm(inner - centre).mean() + norm(outer - centre).mean()) / 2 / width)
     angles = np.arange(columns) * (2 * np.pi / columns) - np.pi
     low, high = (gaussian_filter1d(_radii_of(loop - centre, angles), columns / 45, mode="wrap")
                  for loop in (inner, outer))
-    return _filled(surface, np.concatenate([inner, outer]), centre, angles, low, high, width, True)
+    reach = 2.5 if parallel else 1.0
+    rays = Rows(centre, angles, low + np.linspace(0, reach, 200)[:, None] * (high - low), True)
+    lengths = norm(np.diff(lifted(surface, rays.places).positions.reshape(200, -1, 3), axis=0))
+    lengths = np.concatenate([np.zeros((1, columns)), np.cumsum(lengths, axis=0)])
+    if parallel:
+        across = np.array([np.interp(high[k], rays.radii[:, k], lengths[:, k]) for k in range(columns)])
+        spacing = np.full(columns, width)
+        count = max(int(np.ceil(across.max() / width)) + 1, 5)
+    else:
+        count = max(round(float(lengths[-1].mean()) / width) + 1, 5)
+        spacing = lengths[-1] / (count - 1)
+    radii = np.stack([_continued(np.arange(count) * spacing[k], lengths[:, k], rays.radii[:, k])
+                      for k in range(columns)], axis=1)
+    return Rows(centre, angles, radii, True, spacing)
+
+
+def _continued(at: np.ndarray, lengths: np.ndarray, radii: np.ndarray) -> np.ndarray:
+    """Radii at given lengths along a ray, going on straight beyond its end."""
+    return np.interp(at, lengths, radii) + np.maximum(at - lengths[-1], 0.0)
 
 
 def _columns(widths: float) -> int:
@@ -175,6 +201,6 @@ def _filled(surface: ChartedSurface, places: np.ndarray, centre: np.ndarray, ang
     # where rays leave the box of the places the chart measures them
     lengths = np.maximum(norm(np.diff(positions, axis=0)), norm(np.diff(rays.places, axis=0)))
     mean = np.concatenate([[0.0], np.cumsum(lengths.mean(axis=1))])
-    count = max(int(round(mean[-1] / width)) + 1, 5)
+    count = max(round(float(mean[-1]) / width) + 1, 5)
     level = np.interp(np.linspace(0, mean[-1], count), mean, fraction[:, 0])[:, None]
     return rays.with_radii(inner + level * (outer - inner))

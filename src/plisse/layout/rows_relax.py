@@ -29,7 +29,7 @@ class Relaxation:
 
 
 def relaxed(rows: Rows, surface: ChartedSurface, width: float,
-            options: Relaxation = Relaxation()) -> tuple[Rows, np.ndarray]:  # noqa: B008
+            options: Relaxation = Relaxation()) -> tuple[Rows, np.ndarray]:
     """Rows after Gauss–Newton steps, and the inclinations θ (n, m) in radians that suit them.
 
     The energy is Σ ((gap − s)/s)² + w (6.5 s (κ_g sin θ − κ_n cos θ))² + the variation of κ_g along rows.
@@ -44,15 +44,19 @@ def relaxed(rows: Rows, surface: ChartedSurface, width: float,
         theta = inclination.improved(theta, geometry, FIRST_STEPS if step == 0 else 2)
         if step == options.steps:
             break
-        move = _move(fit, geometry, theta, width, options.curvature, across, triples)
+        wanted = width if rows.spacing is None else rows.spacing
+        move = _move(fit, geometry, theta, width, geometry.gaps - wanted, options.curvature, across, triples)
         move *= min(1.0, width / max(float(np.abs(move).max()), 1e-300))
         rows = rows.with_radii(np.maximum(rows.radii + move, 0.2 * width))
     return rows, theta
 
 
-def _move(fit: GridFit, geometry: RowGeometry, theta: np.ndarray, width: float, curvature: float,
-          across: np.ndarray, triples: np.ndarray) -> np.ndarray:
-    """Change of the radii (n, m) in one Gauss–Newton step; normals and directions are kept as they are."""
+def _move(fit: GridFit, geometry: RowGeometry, theta: np.ndarray, width: float, excess: np.ndarray,
+          curvature: float, across: np.ndarray, triples: np.ndarray) -> np.ndarray:
+    """Change of the radii (n, m) in one Gauss–Newton step; `excess` (n−1, m) is how much gaps are too wide.
+
+    Normals and directions are kept as they are.
+    """
     scale = CURVATURE_SCALE * width
     share = np.sqrt(geometry.steps / width)
     stretch = np.maximum(geometry.stretch, 0.2)
@@ -65,5 +69,5 @@ def _move(fit: GridFit, geometry: RowGeometry, theta: np.ndarray, width: float, 
     residual = scale * (geometry.geodesic * np.sin(theta) - geometry.normal * np.cos(theta))
     return fit.solve(
         [gap, sine[:, None] * bend, wavy.ravel()[:, None] * bend, np.sqrt(DAMPING) / width * share],
-        [of_gap * (geometry.gaps - width).ravel() / width, np.sqrt(curvature) * share * residual,
+        [of_gap * excess.ravel() / width, np.sqrt(curvature) * share * residual,
          scale * wavy * (geometry.geodesic - mean), np.zeros_like(theta)])

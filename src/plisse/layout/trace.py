@@ -35,7 +35,8 @@ def trace(surface: Surface, starts, directions, theta, side=1.0, *, length: floa
     limit = 3 * surface.diagonal if length is None else float(length)
     step = surface.diagonal / 200 if step is None else float(step)
     if not (step > 0 and 0 < limit < np.inf):
-        raise InvalidDesign(f"curves cannot be traced over the length {limit:g} in steps of {step:g}; give positive ones")
+        raise InvalidDesign(f"curves cannot be traced over the length {limit:g} in steps of {step:g}; "
+                            "give positive numbers")
     count = max(1, int(np.ceil(limit / step - 1e-9)))
     starts, directions, theta, side = _inputs(starts, directions, theta, side)
     forward = _march(surface, starts, directions, side / np.tan(theta), limit / count, count, beyond)
@@ -144,9 +145,9 @@ def _ends(before: _State, after: _State, curvature: np.ndarray, origin: _State, 
           beyond: bool) -> dict[Stop, np.ndarray]:
     """Which curves end in this step, and why; no curve for two reasons."""
     move = norm(after.at.positions - before.at.positions)
-    lost = ~(np.isfinite(move) & np.isfinite(after.at.bending).all(axis=(1, 2)) & (move < 2 * step))
-    lost |= ~(dot(after.tangent, before.tangent) > -0.5)
-    curled = ~lost & ((curvature * step > SHARPEST) | (np.abs(after.turning) > TURNS))
+    curled = (curvature * step > SHARPEST) | (np.abs(after.turning) > TURNS)
+    fine = np.isfinite(after.at.bending).all(axis=(1, 2)) & (move > 0.7 * step) & (move < 1.5 * step)
+    lost = ~curled & ~(fine & (dot(after.tangent, before.tangent) > -0.5))
     boundary = ~lost & ~curled & ~after.at.known & (not beyond)
     closed = ~lost & ~curled & ~boundary & (number > 6) & _returns(before, after, origin, step)
     return {Stop.LEFT_CHART: lost, Stop.CURLED_UP: curled, Stop.BOUNDARY: boundary, Stop.CLOSED: closed}

@@ -16,7 +16,7 @@ from plisse.layout.stops import Stop, Trace
 
 __all__ = ["LiteralTracer", "trace_literal"]
 
-TOGETHER = 1500  # curves traced at once: what fits into a processor's cache
+TOGETHER = 4000  # curves traced at once: what fits into a processor's cache
 FROM_CORNER = 1e-6  # crossings keep this share of an edge away from its ends
 TINY = 1e-4  # mean edge lengths below which a piece does not define a direction
 AROUND = 64  # crossings about one vertex after which a curve counts as curled up
@@ -85,15 +85,25 @@ class LiteralTracer:
     def march(self, starts: np.ndarray, faces: np.ndarray, directions: np.ndarray, theta: np.ndarray,
               side: np.ndarray, length: float, crossings: int) -> tuple[list, list, np.ndarray]:
         """Points (3, n) reached in every round, the curves (n,) they belong to, and all stops."""
-        p = starts.T.copy()
+        normals = self.mesh.normals[faces]
+        flat = directions - np.einsum("ni,ni->n", directions, normals)[:, None] * normals
+        if not (norm(flat) > 1e-9 * norm(directions)).all():
+            where = int(np.argmin(norm(flat)))
+            raise InvalidDesign(f"the direction at starting point {where} is normal to the surface; "
+                                "give a tangential one")
+        directions = flat
         q, left = self._first_crossing(starts, faces, directions)
+        tiny = (TINY * self.mesh.edge_length) ** 2
+        p = starts.T.copy()
+        at_edge = dot(q - p, q - p) < tiny  # begins where it leaves the face: as if it came from further back
+        p[:, at_edge] = q[:, at_edge] - 0.01 * self.mesh.edge_length * unit(directions[at_edge].T)
         entered = self.mesh.twins[left]
         stops = np.full(len(starts), Stop.LENGTH, dtype=object)
         alive = np.arange(len(starts))
-        rows, owners = [p, q], [alive, alive]
+        rows, owners = [p[:, ~at_edge], q], [alive[~at_edge], alive]
         cosine, sign = np.cos(theta), np.sign(side)
         run = np.sqrt(dot(q - p, q - p))
-        tiny, close = (TINY * self.mesh.edge_length) ** 2, 0.5 * self.mesh.edge_length
+        close = 0.5 * self.mesh.edge_length
         home, door, pivoting, turns = q, left, np.zeros(len(starts), bool), np.zeros(len(starts), np.int32)
         closed = curled = np.zeros(len(starts), bool)
         for number in range(crossings):
@@ -113,10 +123,7 @@ class LiteralTracer:
             left = self._left_by[which, entered]
             piece = r - q
             square = dot(piece, piece)
-            if (square > tiny).all():
-                p = q
-            else:
-                p = np.where(square > tiny, q, p)
+            p = q if (square > tiny).all() else np.where(square > tiny, q, p)
             q, entered = r, self._exits[which, entered]
             run = run + np.sqrt(square)
             rows.append(q)
@@ -156,15 +163,9 @@ class LiteralTracer:
     def _first_crossing(self, starts: np.ndarray, faces: np.ndarray,
                         directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Where straight lines (N) from inside the faces leave them: points (3, N) and half-edges (N,)."""
-        normals = self.mesh.normals[faces]
-        flat = directions - np.einsum("ni,ni->n", directions, normals)[:, None] * normals
-        if not (norm(flat) > 1e-9 * norm(directions)).all():
-            where = int(np.argmin(norm(flat)))
-            raise InvalidDesign(f"the direction at starting point {where} is normal to the surface; "
-                                "give a tangential one")
-        across = np.cross(normals, flat)
+        across = np.cross(self.mesh.normals[faces], directions)
         gap = self.mesh.corners[faces] - starts[:, None]
-        height, ahead = np.einsum("nki,ni->nk", gap, across), np.einsum("nki,ni->nk", gap, flat)
+        height, ahead = np.einsum("nki,ni->nk", gap, across), np.einsum("nki,ni->nk", gap, directions)
         height_next, ahead_next = np.roll(height, -1, axis=1), np.roll(ahead, -1, axis=1)
         # in a face that lies on the left of its edges, a line leaves where the heights change from − to +
         leaves = (height <= 0) & (height_next > 0)

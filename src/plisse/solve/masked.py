@@ -18,9 +18,9 @@ from plisse.measure.sectors import angle_defect, sector_angles
 from plisse.solve.anneal import WEIGHTS, anneal
 from plisse.solve.constraints import Constraints
 from plisse.solve.energies.mid_surface import mid_surface_closeness
-from plisse.structure.masks import cleaned
-from plisse.solve.polish import polish
+from plisse.solve.polish import Polished, polish
 from plisse.structure.grid import grid
+from plisse.structure.masks import cleaned
 from plisse.structure.topology import Topology
 
 __all__ = ["Masked", "MaskedGrid", "Trim", "solve_masked"]
@@ -30,7 +30,8 @@ FEWEST_QUADS = 30
 AGAIN = WEIGHTS[3:]
 FAIRNESS = {"closeness": 0.01, "across": 0.1}
 RESISTING = 0.03  # an irregular face with a larger defect is a cause, with a smaller one a consequence
-POLISH_STEPS = 8
+GLIMPSE, POLISH_STEPS = 4, 6  # steps after which a polish must show promise, and steps after that
+PROMISING = 0.03
 
 
 @dataclass(frozen=True)
@@ -101,7 +102,7 @@ class Masked:
 
 
 def solve_masked(start: np.ndarray, normals: np.ndarray, mask: np.ndarray, closed: bool,
-                 trim: Trim = Trim(), weights: tuple[float, ...] = WEIGHTS) -> Masked | None:  # noqa: B008
+                 trim: Trim = Trim(), weights: tuple[float, ...] = WEIGHTS) -> Masked | None:
     """Exact structure near a zigzag `start` (n, m, 3) on the quads of a mask, or on most of them.
 
     `normals` (n, m, 3) are those of the reference: the mid-surface is held along them.
@@ -175,7 +176,15 @@ def _relaxed(part: MaskedGrid, rest: np.ndarray, current: np.ndarray, normals: n
     try:
         if weights:
             at = anneal(topology, at, rest=at_rest, weights=weights, fairness=FAIRNESS, extra=extra)
-        done = polish(Constraints(topology), at, steps=POLISH_STEPS)
+        done = _polished(Constraints(topology), at)
     except NotPositiveDefinite:
         return at.T * unit, np.inf
     return (done.vertices if done.defect < CONVERGED else at).T * unit, done.defect
+
+
+def _polished(constraints: Constraints, vertices: np.ndarray) -> Polished:
+    """A polish that is given up early where it leads nowhere."""
+    done = polish(constraints, vertices, steps=GLIMPSE)
+    if CONVERGED <= done.defect < PROMISING:
+        done = polish(constraints, done.vertices, steps=POLISH_STEPS)
+    return done

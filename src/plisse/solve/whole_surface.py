@@ -3,13 +3,14 @@
 Coverage at full regularity counts first, then nearness, then opening angles that one can fold.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from plisse.errors import Infeasible
 from plisse.geometry.mesh import ReferenceMesh
+from plisse.geometry.vectors import dot
 from plisse.layout.automatic import (
     OVERHANG_LIMIT,
     UPRIGHT_LIMIT,
@@ -25,7 +26,9 @@ from plisse.layout.rows import ChartedSurface
 from plisse.measure.folds import crease_opening_angles
 from plisse.measure.inclination import crease_inclinations
 from plisse.measure.mid_surface import MidSurfaceDeviation, mid_surface_deviation
+from plisse.measure.planarity import face_normals
 from plisse.measure.regularity import OPENING_RANGE
+from plisse.measure.sectors import sector_angles
 from plisse.solve.masked import Masked, Trim, solve_masked
 from plisse.structure.pleated import PleatedStructure
 
@@ -34,24 +37,27 @@ __all__ = ["Candidate", "WholeSurface", "whole_surface"]
 FOLDABLE = np.radians(15.0)
 REACH = 3.0  # how far from the reference the structure counts as lying over it, in widths
 FULL = 0.995  # coverage that is as good as all
-SLENDER, STOUT = 0.5, 0.8  # amplitudes in widths
-SCAN = Trim(rounds=7, hold=0.03)
-HOLDS = (0.3, 0.1, 0.01, 0.0)
+AMPLITUDE = 0.8  # in widths: lower pleats cover less, higher ones open less
+SCAN = Trim(rounds=7, hold=0.1)
+HOLDS = (0.03, 0.3, 0.0)
 FINALISTS = 3
-FARNESS = 0.02  # coverage that one amplitude of mean deviation is worth
+FARNESS = 0.04  # coverage that one amplitude of mean deviation is worth
+NEAR = 0.3  # mean deviation in amplitudes below which nothing more is asked for
+COMFORTABLE = {"sector": 20.0, "opening": 30.0}  # degrees above which larger angles are no better
 
 Progress = Callable[[str, float], None]
 
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A layout and what came of it: coverage, deviation of the mid-surface, opening angles (K,) in radians."""
+    """A layout and what came of it: coverage, deviation of the mid-surface, smallest angles in radians."""
 
     layout: Layout
     solved: Masked
     coverage: float
     deviation: MidSurfaceDeviation
-    openings: np.ndarray
+    least_opening: float
+    least_sector: float
 
     @property
     def mean_deviation(self) -> float:
@@ -61,20 +67,27 @@ class Candidate:
     @property
     def rank(self) -> tuple[bool, float]:
         """Sort key: soundness, then coverage and nearness weighed against each other, with a little for openness."""
-        open_ = min(float(np.degrees(self.openings.min(initial=np.pi / 6))), 30.0) / 30
-        return self.solved.is_sound, min(self.coverage, FULL) - FARNESS * self.mean_deviation + 0.005 * open_
+        ease = sum(min(np.degrees(angle) / COMFORTABLE[name], 1.0)
+                   for name, angle in (("sector", self.least_sector), ("opening", self.least_opening)))
+        return self.solved.is_sound, min(self.coverage, FULL) - FARNESS * self.mean_deviation + 0.005 * ease
 
     @property
     def is_full(self) -> bool:
         """Whether nothing is left to be covered."""
         return self.solved.is_sound and self.coverage >= FULL
 
+    @property
+    def is_done(self) -> bool:
+        """Whether nothing is left to be covered or brought nearer."""
+        return self.is_full and self.mean_deviation < NEAR
+
 
 @dataclass(frozen=True, eq=False)
 class WholeSurface:
     """An exact structure over a surface, without development, and how it lies there.
 
-    `inclination` (K,) in radians belongs to the inner crease edges of the topology, `rows` (V,) number the creases.
+    `inclination` (K,) in radians belongs to the inner crease edges of the topology, `rows` (V,) number the creases,
+    `overhanging` is the fraction of faces that lean beyond the surface normal.
     `candidates` are all that were solved, in order; `notes` sentences for the report.
     """
 
@@ -83,6 +96,7 @@ class WholeSurface:
     deviation: MidSurfaceDeviation
     inclination: np.ndarray
     rows: np.ndarray
+    overhanging: float
     best: Candidate
     candidates: tuple[Candidate, ...]
     notes: tuple[str, ...]
@@ -96,6 +110,15 @@ class _Task:
     surface: ChartedSurface
     samples: AreaSamples
     least_opening: float
+
+    @property
+    def is_annulus(self) -> bool:
+        """Whether rows can run around between two boundaries."""
+        try:
+            starting_rows(self.mesh, self.surface, None, self.mesh.diagonal)
+        except Infeasible:
+            return False
+        return True
 
     def layout(self, centre: np.ndarray | None, sizes: Sizes) -> Layout:
         rows = starting_rows(self.mesh, self.surface, centre, sizes.width)
@@ -111,7 +134,8 @@ class _Task:
         return Candidate(layout, found,
                          covered(self.samples, found.vertices, topology.quads, REACH * layout.sizes.width),
                          mid_surface_deviation(self.surface, found.vertices, topology.quads),
-                         crease_opening_angles(topology, found.vertices))
+                         float(crease_opening_angles(topology, found.vertices).min(initial=np.pi)),
+                         float(np.minimum(angles := sector_angles(topology, found.vertices), np.pi - angles).min()))
 
 
 def whole_surface(mesh: ReferenceMesh, surface: ChartedSurface, *, width: float | None = None,
@@ -125,62 +149,65 @@ def whole_surface(mesh: ReferenceMesh, surface: ChartedSurface, *, width: float 
     """
     report = progress or (lambda stage, fraction: None)
     width = width or sensible_width(mesh, surface)
-    limit = OVERHANG_LIMIT if overhang else UPRIGHT_LIMIT
     task = _Task(mesh, surface, AreaSamples.of(mesh.vertices, mesh.triangles), OPENING_RANGE[0] if overhang else FOLDABLE)
-    variants = [Sizes(width, amplitude or ratio * width, theta or 0.0, limit, curvature)
-                for ratio, curvature in ((SLENDER, 1.0), (STOUT, 0.0))]
-    around: list[np.ndarray | None] = [centre] if centre is not None else list(centres(mesh, surface, candidates))
-    if centre is None and len(mesh.boundary_loops) == 2:
-        around = [None]
-    tried = list(_scan(task, around, variants, report))
+    sizes = Sizes(width, amplitude or AMPLITUDE * width, theta or 0.0, OVERHANG_LIMIT if overhang else UPRIGHT_LIMIT, 0.0)
+    tried: list[Candidate] = []
+    for stage, jobs in (("scan", _first(task, sizes, centre, candidates)), ("refine", _second(task, tried))):
+        for fraction, layout, trim in jobs:
+            report(stage, fraction)
+            candidate = task.solved(layout, trim)
+            tried += [candidate] if candidate else []
+            if candidate and candidate.is_done:
+                return _finished(task, candidate, tuple(tried))
     if not tried:
         raise Infeasible("no layout over this surface has a solution; a smaller width or a smoother surface may help")
-    best = list(_refined(task, tried, report))
-    tried += best
     return _finished(task, max(tried, key=lambda candidate: candidate.rank), tuple(tried))
 
 
-def _scan(task: _Task, around: Iterable[np.ndarray | None], variants: list[Sizes],
-          report: Progress) -> Iterator[Candidate]:
-    """Candidates in turn; the scan ends when two cover everything and lie near."""
-    jobs = [(centre, sizes) for centre in around for sizes in variants]
-    good = 0
-    for k, (centre, sizes) in enumerate(jobs):
-        report("scan", k / len(jobs))
-        candidate = task.solved(task.layout(centre, sizes), SCAN)
-        if candidate is None:
-            continue
-        yield candidate
-        good += candidate.is_full
-        if good >= 2:
-            return
+_Jobs = Iterator[tuple[float, Layout, Trim]]
 
 
-def _refined(task: _Task, tried: list[Candidate], report: Progress) -> Iterator[Candidate]:
-    """The best layouts solved again, held nearer to the reference or left freer."""
+def _first(task: _Task, sizes: Sizes, centre: np.ndarray | None, count: int) -> _Jobs:
+    """Layouts around one centre or many; for an annulus, rows between its boundaries, of several widths."""
+    if centre is None and task.is_annulus:
+        jobs += [(None, replace(sizes, width=sizes.width * size, amplitude=sizes.amplitude * size * height,
+                               curvature=weight, limit=limit))
+                for limit, weight in ((OVERHANG_LIMIT, 0.0), (OVERHANG_LIMIT, 1.0), (sizes.limit, 0.0))
+                for size, height in ((1.0, 1.5), (0.8, 1.5), (1.0, 1.0))]
+    elif centre is None:
+        jobs += [(place, sizes) for place in centres(task.mesh, task.surface, count)]
+    else:
+        jobs += [(centre, replace(sizes, curvature=weight)) for weight in (0.0, 1.0)]
+    for k, (place, size) in enumerate(jobs):
+        yield k / len(jobs), task.layout(place, size), SCAN
+
+
+def _second(task: _Task, tried: list[Candidate]) -> _Jobs:
+    """The best layouts again, held nearer to the reference or left freer."""
     finalists = sorted(tried, key=lambda candidate: candidate.rank, reverse=True)[:FINALISTS]
     jobs = [(candidate, hold) for candidate in finalists for hold in HOLDS]
     for k, (candidate, hold) in enumerate(jobs):
-        report("refine", k / len(jobs))
-        again = task.solved(candidate.layout, Trim(hold=hold))
-        if again is not None:
-            yield again
+        yield k / len(jobs), candidate.layout, Trim(hold=hold)
 
 
 def _finished(task: _Task, best: Candidate, tried: tuple[Candidate, ...]) -> WholeSurface:
     part, net = best.solved.grid, best.layout.net
+    vertices = best.solved.vertices
     normals, outward = (field.reshape(-1, 3)[part.used] for field in (net.normals, net.outward))
-    inclination = crease_inclinations(part.topology, best.solved.vertices, normals, outward)
-    return WholeSurface(PleatedStructure(part.topology, best.solved.vertices), best.coverage, best.deviation,
-                        inclination, part.rows, best, tried, tuple(_notes(best, inclination)))
+    inclination = crease_inclinations(part.topology, vertices, normals, outward)
+    facing = dot(face_normals(part.topology, vertices), normals[part.topology.quads].sum(axis=1))
+    overhanging = float(np.mean(facing * np.sign(facing.sum()) < 0))
+    notes = _notes(task, best, inclination, overhanging)
+    return WholeSurface(PleatedStructure(part.topology, vertices), best.coverage, best.deviation, inclination, part.rows,
+                        overhanging, best, tried, tuple(notes))
 
 
-def _notes(best: Candidate, inclination: np.ndarray) -> Iterator[str]:
-    """Sentences on holes, parts left out, and inclinations."""
-    topology = best.solved.grid.topology
+def _notes(task: _Task, best: Candidate, inclination: np.ndarray, overhanging: float) -> Iterator[str]:
+    """Sentences on inclinations, holes and parts left out."""
     yield (f"fitted inclination, {best.layout.label}: θ runs from {np.degrees(inclination.min()):.0f}° to "
-           f"{np.degrees(inclination.max()):.0f}°")
-    holes = (0 if best.layout.net.closed else 1) - topology.euler_characteristic
+           f"{np.degrees(inclination.max()):.0f}°, {100 * overhanging:.0f} % of the faces overhang")
+    own = max(len(task.mesh.boundary_loops) - 1, 0)
+    holes = 1 - best.solved.grid.topology.euler_characteristic - own
     if holes > 0:
         yield f"the structure has {holes} hole{'s' if holes > 1 else ''} where no exact pleats were found"
     if best.coverage < FULL:
