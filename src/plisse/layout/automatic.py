@@ -20,7 +20,6 @@ STRIPS = 32  # a surface about as wide as long gets this many
 SHARPEST = 0.5  # width times the curvature that 95 % of the surface stay below
 GAPS = (0.35, 2.9)
 LEAST_AREA = 0.02
-REACH = 4.0  # how far along normals the structure counts as being over the surface, in widths
 UPRIGHT_LIMIT, OVERHANG_LIMIT = np.radians(45.0), np.radians(58.0)
 
 
@@ -70,9 +69,12 @@ def centres(mesh: ReferenceMesh, surface: ChartedSurface, count: int = 20) -> It
         yield middle + distance * np.array([np.cos(angle), np.sin(angle)])
 
 
-def starting_rows(mesh: ReferenceMesh, surface: ChartedSurface, centre: np.ndarray | None, width: float,
+def starting_rows(mesh: ReferenceMesh, surface: ChartedSurface, centre: np.ndarray | None, width: float, *,
                   parallel: bool = True) -> Rows:
-    """Rows about a centre in the chart, or between the two boundary loops of an annulus when there is no centre."""
+    """Rows about a centre (2,) in the chart, or between the two boundary loops of an annulus when there is none.
+
+    Raises Infeasible where there are no such loops, or where they are not star-shaped.
+    """
     places = surface.to_plane(mesh.vertices)[:, :2]
     if centre is not None:
         return circles(surface, places, np.asarray(centre, float), width)

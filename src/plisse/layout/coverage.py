@@ -72,4 +72,4 @@ def _frames(normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def _contains(triangles: np.ndarray) -> np.ndarray:
     """Whether triangles (N, 3, 2) contain the origin, whatever their orientation."""
     turns = np.stack([cross_flat(triangles[:, k], triangles[:, (k + 1) % 3]) for k in range(3)])
-    return np.abs(np.sign(turns).clip(0, 1).sum(axis=0) - 1.5) > 1.4
+    return np.asarray((turns >= 0).all(axis=0) | (turns <= 0).all(axis=0))

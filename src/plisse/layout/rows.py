@@ -201,6 +201,6 @@ def _filled(surface: ChartedSurface, places: np.ndarray, centre: np.ndarray, ang
     # where rays leave the box of the places the chart measures them
     lengths = np.maximum(norm(np.diff(positions, axis=0)), norm(np.diff(rays.places, axis=0)))
     mean = np.concatenate([[0.0], np.cumsum(lengths.mean(axis=1))])
-    count = max(round(float(mean[-1]) / width) + 1, 5)
-    level = np.interp(np.linspace(0, mean[-1], count), mean, fraction[:, 0])[:, None]
+    count = max(int(mean[-1] / width) + 1, 5)
+    level = np.interp(np.arange(count) * min(width, mean[-1] / (count - 1)), mean, fraction[:, 0])[:, None]
     return rays.with_radii(inner + level * (outer - inner))

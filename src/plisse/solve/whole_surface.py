@@ -143,16 +143,17 @@ def whole_surface(mesh: ReferenceMesh, surface: ChartedSurface, *, width: float 
                   overhang: bool = False, candidates: int = 20, progress: Progress | None = None) -> WholeSurface:
     """An exact, regular structure over as much of a surface as can be had in one piece.
 
-    Lengths are in model units, `theta` (preferred inclination) in radians, `centre` (2,) in the surface's chart: with
-    a centre only layouts around it are tried. Without `overhang` |θ| stays below 45° and creases open by 15° at
+    Lengths are in model units, `theta` (preferred inclination) is in radians. Only layouts around `centre` (3,) are
+    tried where it is given; it may lie anywhere, its chart coordinates count. Without `overhang` |θ| stays below 45° and creases open by 15° at
     least. Raises Infeasible where no layout has a solution.
     """
     report = progress or (lambda stage, fraction: None)
     width = width or sensible_width(mesh, surface)
     task = _Task(mesh, surface, AreaSamples.of(mesh.vertices, mesh.triangles), OPENING_RANGE[0] if overhang else FOLDABLE)
     sizes = Sizes(width, amplitude or AMPLITUDE * width, theta or 0.0, OVERHANG_LIMIT if overhang else UPRIGHT_LIMIT, 0.0)
+    place = None if centre is None else surface.to_plane(np.asarray(centre, float)[None])[0, :2]
     tried: list[Candidate] = []
-    for stage, jobs in (("scan", _first(task, sizes, centre, candidates)), ("refine", _second(task, tried))):
+    for stage, jobs in (("scan", _first(task, sizes, place, candidates)), ("refine", _second(task, tried))):
         for fraction, layout, trim in jobs:
             report(stage, fraction)
             candidate = task.solved(layout, trim)
