@@ -8,10 +8,11 @@ import numpy as np
 
 from plisse.assess import assess, start_defects
 from plisse.errors import Infeasible
-from plisse.io.consistency import check_design
+from plisse.io.consistency import check_design, check_surface_design
 from plisse.io.designs import design_from_dict, read_design
 from plisse.layout.guiding import Guiding, guiding
-from plisse.recipe import Design
+from plisse.recipe import Design, SurfaceDesign
+from plisse.reconstruction import deviation_of, inclinations_of, reference_surface
 from plisse.result import Report, Result
 from plisse.solve.attempt import Start
 from plisse.solve.closed_form import closed_form
@@ -21,6 +22,7 @@ from plisse.solve.flatten import flatten, laid_out
 from plisse.solve.forecast import forecast
 from plisse.solve.paper import solve_paper
 from plisse.solve.portfolio import GENERAL, PRINCIPAL, SECOND_CHANCE, Outcome, Way, solve
+from plisse.solve.whole_surface import whole_surface
 from plisse.solve.zigzag import zigzag
 from plisse.stopwatch import Stopwatch
 from plisse.structure.pleated import PleatedStructure
@@ -30,7 +32,7 @@ __all__ = ["design"]
 Progress = Callable[[str, float], None]
 
 
-def design(recipe: Design | dict | str | Path, *, progress: Progress | None = None) -> Result:
+def design(recipe: Design | SurfaceDesign | dict | str | Path, *, progress: Progress | None = None) -> Result:
     """The structure that a recipe asks for, with the pattern it follows and the report that proves it.
 
     `recipe` is a Design, nested dictionaries as in TOML, or the path of a design file. `progress(stage, fraction)` is
@@ -39,6 +41,8 @@ def design(recipe: Design | dict | str | Path, *, progress: Progress | None = No
     """
     recipe = _checked(recipe)
     watch = Stopwatch(progress)
+    if isinstance(recipe, SurfaceDesign):
+        return _over_surface(recipe, watch)
     if recipe.closed_form is not None:
         return _by_formula(recipe, watch)
     assert recipe.curve is not None  # a checked recipe without closed form has both
@@ -51,6 +55,29 @@ def design(recipe: Design | dict | str | Path, *, progress: Progress | None = No
     watch.start("solve", 0.2)
     zigzagged = zigzag(guide.pattern.resampled(guide.samples), guide.amplitude)
     return (_by_the_paper if recipe.solve.method == "paper" else _exactly)(recipe, guide, zigzagged, watch)
+
+
+def _over_surface(recipe: SurfaceDesign, watch: Stopwatch) -> Result:
+    """The reconstruction of a surface: layouts of fitted inclination, the best of those that become exact (§3.1)."""
+    watch.start("surface", 0.0)
+    mesh, surface = reference_surface(recipe.surface)
+    pattern = recipe.pattern
+    watch.start("solve", 0.1)
+    try:
+        found = whole_surface(
+            mesh, surface, width=pattern.width, amplitude=pattern.amplitude, overhang=recipe.surface.overhang,
+            theta=None if pattern.theta is None else float(np.radians(pattern.theta)),
+            centre=None if recipe.surface.centre is None else np.array(recipe.surface.centre))
+    except Infeasible as error:
+        return _broken_down(recipe, [str(error)], watch)
+    watch.start("flatten", 0.9)
+    structure = flatten(found.structure, best_cut(found.structure))
+    watch.start("measure", 0.95)
+    report = assess(structure, units=recipe.units)
+    report = msgspec.structs.replace(
+        report, seconds=watch.stop(), design=recipe.to_dict(), method="fitted inclination", coverage=found.coverage,
+        deviation=deviation_of(found, mesh.diagonal), inclination_deg=inclinations_of(found), warnings=list(found.notes))
+    return Result(recipe, report, structure=structure)
 
 
 def _by_formula(recipe: Design, watch: Stopwatch) -> Result:
@@ -108,9 +135,11 @@ def _measured(recipe: Design, guides: np.ndarray, amplitude: float, structure: P
     return msgspec.structs.replace(report, seconds=watch.stop(), design=recipe.to_dict())
 
 
-def _checked(recipe: Design | dict | str | Path) -> Design:
+def _checked(recipe: Design | SurfaceDesign | dict | str | Path) -> Design | SurfaceDesign:
     if isinstance(recipe, Design):
         return check_design(recipe)
+    if isinstance(recipe, SurfaceDesign):
+        return check_surface_design(recipe)
     return design_from_dict(recipe) if isinstance(recipe, dict) else read_design(recipe)
 
 
@@ -153,7 +182,7 @@ def _said_of(outcome: Outcome) -> list[str]:
     return lines
 
 
-def _broken_down(recipe: Design, reasons: list[str], watch: Stopwatch, guide: Guiding | None = None,
+def _broken_down(recipe: Design | SurfaceDesign, reasons: list[str], watch: Stopwatch, guide: Guiding | None = None,
                  zigzagged: PleatedStructure | None = None) -> Result:
     report = Report(status="infeasible", reasons=reasons, seconds=watch.stop(), units=recipe.units,
                     design=recipe.to_dict())

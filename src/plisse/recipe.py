@@ -9,10 +9,12 @@ import msgspec
 from msgspec import Meta
 
 __all__ = ["MILLIMETRES", "Arc", "ClosedForm", "Cones", "ConicCreases", "Curve", "Design", "Ellipse", "Helix", "Miura",
-           "Pattern", "Points", "Solve", "Spline", "TorusKnot"]
+           "Pattern", "Points", "Solve", "Spline", "Surface", "SurfaceDesign", "SurfacePattern", "TorusKnot"]
 
 Length = Annotated[float, Meta(gt=0, description="a positive length in model units")]
 Inclination = Annotated[float, Meta(ge=0, lt=90, description="degrees from 0 up to, not including, 90")]
+Units = Annotated[Literal["mm", "cm", "m", "in", "ft"], Meta(description="mm, cm, m, in or ft")]
+Range = Annotated[tuple[float, float], Meta(description="two rising numbers")]
 Point = Annotated[list[float], Meta(min_length=3, max_length=3, description="three coordinates [x, y, z]")]
 
 
@@ -158,7 +160,7 @@ class Design(_Strict, kw_only=True, frozen=True):
     pattern: Pattern | None = None
     closed_form: ClosedForm | None = None
     solve: Solve = msgspec.field(default_factory=Solve)
-    units: Annotated[Literal["mm", "cm", "m", "in", "ft"], Meta(description="mm, cm, m, in or ft")] = "mm"
+    units: Units = "mm"
 
     def to_dict(self) -> dict:
         """Plain dictionaries and lists, as TOML or JSON would hold them; keys that are not set are left out."""
@@ -168,6 +170,40 @@ class Design(_Strict, kw_only=True, frozen=True):
     def is_closed(self) -> bool:
         """Whether the creases are closed curves."""
         return self.curve is not None and self.curve.closed
+
+
+class Surface(_Strict, kw_only=True, frozen=True):
+    """A reference surface: a mesh file, or a height z(x, y) over a rectangle; layouts are found automatically.
+
+    `centre` names the point of the surface around which rows are laid; `overhang` allows folds leaning over 45°.
+    """
+
+    file: str | None = None
+    height: str | None = None
+    x: Range = (-100.0, 100.0)
+    y: Range = (-100.0, 100.0)
+    centre: Point | None = None
+    overhang: bool = False
+
+
+class SurfacePattern(_Strict, kw_only=True, frozen=True):
+    """What may be asked of the pleats over a surface; everything else follows from its size and curvature."""
+
+    theta: Inclination | None = None
+    width: Length | None = None
+    amplitude: Length | None = None
+
+
+class SurfaceDesign(_Strict, kw_only=True, frozen=True):
+    """The recipe of a reconstruction (§3.1)."""
+
+    surface: Surface
+    pattern: SurfacePattern = msgspec.field(default_factory=SurfacePattern)
+    units: Units = "mm"
+
+    def to_dict(self) -> dict:
+        """Plain dictionaries and lists, as TOML or JSON would hold them; keys that are not set are left out."""
+        return _without_none(msgspec.to_builtins(self))
 
 
 def _without_none(value):

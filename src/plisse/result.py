@@ -5,11 +5,11 @@ from typing import Literal
 
 import msgspec
 
-from plisse.recipe import Design
+from plisse.recipe import Design, SurfaceDesign
 from plisse.structure.pattern import Pattern
 from plisse.structure.pleated import PleatedStructure
 
-__all__ = ["Interval", "Report", "Result", "Sheet", "Spread"]
+__all__ = ["Deviation", "Interval", "Report", "Result", "Sheet", "Spread"]
 
 
 class Spread(msgspec.Struct, frozen=True):
@@ -34,6 +34,17 @@ class Sheet(msgspec.Struct, frozen=True):
     overlap_at_mm: tuple[float, float] | None = None
 
 
+class Deviation(msgspec.Struct, frozen=True):
+    """Distance of the mid-surface from the reference: model units, relative to its diagonal, and in amplitudes."""
+
+    max: float
+    mean: float
+    max_relative: float
+    mean_relative: float
+    max_amplitudes: float
+    mean_amplitudes: float
+
+
 class Report(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=False):
     """The numbers of `report.json`; angles in radians unless a name says degrees, see the conventions page."""
 
@@ -50,6 +61,9 @@ class Report(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=False):
     inverted_faces: int | None = None
     self_intersections: int | None = None
     isometry: float | None = None
+    coverage: float | None = None
+    deviation: Deviation | None = None
+    inclination_deg: list[Interval] | None = None
     principal: bool = False
     warnings: list[str] = []
     start: dict[str, Spread] = {}
@@ -70,7 +84,7 @@ class Result:
     `pattern`, `zigzagged` and `structure` are None where the design broke down before they existed.
     """
 
-    design: Design
+    design: Design | SurfaceDesign
     report: Report
     pattern: Pattern | None = None
     zigzagged: PleatedStructure | None = None

@@ -4,9 +4,9 @@ import math
 from itertools import pairwise
 
 from plisse.errors import InvalidDesign
-from plisse.recipe import Arc, ClosedForm, Curve, Design, Ellipse, Helix, Pattern, Points, Spline, TorusKnot
+from plisse.recipe import Arc, ClosedForm, Curve, Design, Ellipse, Helix, Pattern, Points, Spline, SurfaceDesign, TorusKnot
 
-__all__ = ["check_design"]
+__all__ = ["check_design", "check_surface_design"]
 
 MAX_VERTICES = 250_000
 
@@ -28,6 +28,18 @@ def check_design(design: Design) -> Design:
     if design.solve.cut is not None and not design.curve.closed:
         raise InvalidDesign("solve.cut is set, but the curve is open and needs no cut; remove it or set curve.closed")
     _check_curve(design.curve)
+    return design
+
+
+def check_surface_design(design: SurfaceDesign) -> SurfaceDesign:
+    """The same design; raises InvalidDesign unless it names one surface."""
+    surface = design.surface
+    if (surface.file is None) == (surface.height is None):
+        both = "both surface.file and surface.height" if surface.file else "neither surface.file nor surface.height"
+        raise InvalidDesign(f"a surface is a mesh file or a height z(x, y), but {both} is given; give one of them")
+    for name, (low, high) in (("x", surface.x), ("y", surface.y)):
+        if not low < high:
+            raise InvalidDesign(f"surface.{name} is [{low:g}, {high:g}]; give two rising numbers")
     return design
 
 

@@ -7,15 +7,15 @@ from pathlib import Path
 import msgspec
 
 from plisse.errors import InvalidDesign
-from plisse.io.consistency import check_design
+from plisse.io.consistency import check_design, check_surface_design
 from plisse.io.mistakes import refuse_non_finite, sentence
 from plisse.io.polylines import read_polyline
-from plisse.recipe import Design, Points, Spline
+from plisse.recipe import Design, Points, Spline, SurfaceDesign
 
 __all__ = ["design_from_dict", "parse_assignment", "read_design"]
 
 
-def read_design(path: str | Path, overrides: Iterable[str] = ()) -> Design:
+def read_design(path: str | Path, overrides: Iterable[str] = ()) -> Design | SurfaceDesign:
     """The design in a TOML file, with `section.key=value` overrides applied.
 
     Curve files are found beside the design and their points taken into it, so that the design stands alone.
@@ -38,10 +38,15 @@ def read_design(path: str | Path, overrides: Iterable[str] = ()) -> Design:
     return design_from_dict(data, base=path.parent)
 
 
-def design_from_dict(data: dict, base: str | Path = ".") -> Design:
-    """The checked design in nested dictionaries as TOML holds them; file names are relative to `base`."""
+def design_from_dict(data: dict, base: str | Path = ".") -> Design | SurfaceDesign:
+    """The checked design in nested dictionaries as TOML holds them; file names are relative to `base`.
+
+    A `surface` section makes it the design of a reconstruction.
+    """
     refuse_non_finite(data)
     try:
+        if "surface" in data:
+            return _with_mesh(check_surface_design(msgspec.convert(data, SurfaceDesign)), Path(base))
         design = msgspec.convert(data, Design)
     except msgspec.ValidationError as error:
         raise InvalidDesign(sentence(str(error), data)) from None
@@ -66,6 +71,13 @@ def _assign(data: dict, keys: list[str], value: object) -> None:
         if not isinstance(data, dict):
             raise InvalidDesign(f"--set {'.'.join(keys)} goes through {key}, which is a value and not a section")
     data[keys[-1]] = value
+
+
+def _with_mesh(design: SurfaceDesign, base: Path) -> SurfaceDesign:
+    surface = design.surface
+    if surface.file is None or base == Path():
+        return design
+    return msgspec.structs.replace(design, surface=msgspec.structs.replace(surface, file=str(base / surface.file)))
 
 
 def _with_points(design: Design, base: Path) -> Design:

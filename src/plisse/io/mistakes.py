@@ -6,11 +6,12 @@ import re
 import msgspec
 
 from plisse.errors import InvalidDesign
-from plisse.recipe import ClosedForm, Curve, Design, Pattern, Solve
+from plisse.recipe import ClosedForm, Curve, Design, Pattern, Solve, Surface, SurfaceDesign, SurfacePattern
 
 __all__ = ["refuse_non_finite", "sentence"]
 
 SECTIONS = {"": Design, "pattern": Pattern, "solve": Solve}
+SURFACE_SECTIONS = {"": SurfaceDesign, "surface": Surface, "pattern": SurfacePattern}
 KINDS = {"curve": Curve, "closed_form": ClosedForm}
 
 
@@ -50,7 +51,7 @@ def sentence(message: str, data: dict) -> str:
 def _struct_at(path: str, data: dict) -> type | None:
     section = path.split(".")[0].split("[")[0]
     if section not in KINDS:
-        return SECTIONS.get(section)
+        return (SURFACE_SECTIONS if "surface" in data else SECTIONS).get(section)
     entry = data.get(section)
     kind = entry.get("kind") if isinstance(entry, dict) else None
     return next((c for c in KINDS[section].__args__ if c.__struct_config__.tag == kind), None)

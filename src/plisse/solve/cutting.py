@@ -3,9 +3,9 @@
 import numpy as np
 
 from plisse.solve.flatten import laid_out, unfold
-from plisse.structure.cut import Cut, cut_along, uncut
+from plisse.structure.cut import Cut, cut_along, cut_open, uncut
 from plisse.structure.pleated import PleatedStructure
-from plisse.structure.topology import Polyline
+from plisse.structure.topology import Polyline, Topology
 
 __all__ = ["best_cut"]
 
@@ -16,13 +16,13 @@ def best_cut(structure: PleatedStructure, percent: float | None = None) -> Cut:
     """The transverse polyline along which a closed structure opens into the smallest sheet without overlap.
 
     `percent` of the crease's length names the cut instead. Simply connected structures are not cut; structures whose
-    family closes are cut along a crease.
+    family closes are cut along a crease, others with holes along a short graph of edges.
     """
     topology = structure.topology
     if topology.euler_characteristic >= 1:
         return uncut(topology)
-    if not any(crease.closed for crease in topology.creases):
-        return _smallest(structure, [topology.creases[0]])
+    if not all(line.closed for line in (topology.creases if percent is None else topology.creases[:1])):
+        return _smallest(structure, [topology.creases[0]]) if _is_tube(topology) else cut_open(topology)
     lines = [line for line in topology.rulings if not line.closed]
     along = topology.creases[0].vertices
     rank = {int(vertex): k for k, vertex in enumerate(along)}
@@ -31,6 +31,11 @@ def best_cut(structure: PleatedStructure, percent: float | None = None) -> Cut:
         return cut_along(topology, lines[round(percent / 100 * len(lines)) % len(lines)])
     chosen = [lines[k] for k in np.unique(np.linspace(0, len(lines), CANDIDATES, endpoint=False).astype(int))]
     return _smallest(structure, chosen)
+
+
+def _is_tube(topology: Topology) -> bool:
+    """Whether rulings close and creases run from one end to the other."""
+    return topology.euler_characteristic == 0 and all(line.closed for line in topology.rulings)
 
 
 def _smallest(structure: PleatedStructure, lines: list[Polyline]) -> Cut:

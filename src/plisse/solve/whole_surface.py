@@ -170,6 +170,7 @@ _Jobs = Iterator[tuple[float, Layout, Trim]]
 
 def _first(task: _Task, sizes: Sizes, centre: np.ndarray | None, count: int) -> _Jobs:
     """Layouts around one centre or many; for an annulus, rows between its boundaries, of several widths."""
+    jobs: list[tuple[np.ndarray | None, Sizes]] = []
     if centre is None and task.is_annulus:
         jobs += [(None, replace(sizes, width=sizes.width * size, amplitude=sizes.amplitude * size * height,
                                curvature=weight, limit=limit))

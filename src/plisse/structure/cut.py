@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from plisse.structure.topology import Polyline, Topology
 
-__all__ = ["Cut", "cut_along", "uncut"]
+__all__ = ["Cut", "cut_along", "cut_open", "uncut"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,9 +31,36 @@ def uncut(topology: Topology) -> Cut:
 
 def cut_along(topology: Topology, *lines: Polyline) -> Cut:
     """The topology with both copies of every vertex inside the lines; faces and their order stay the same."""
-    corners, edges = topology.corners, topology.edges
-    key = _edge_keys(edges.vertices, topology.vertex_count)
-    severed = np.isin(key, np.concatenate([_line_keys(line, topology.vertex_count) for line in lines]))
+    key = _edge_keys(topology.edges.vertices, topology.vertex_count)
+    return _severed(topology, np.isin(key, np.concatenate([_line_keys(line, topology.vertex_count) for line in lines])))
+
+
+def cut_open(topology: Topology) -> Cut:
+    """Any connected topology cut open into a disk, along a short graph of edges that joins its holes and handles.
+
+    Faces are joined along a breadth-first tree; of the edges that the tree does not cross those remain severed that
+    lead somewhere, because loose ends are closed again.
+    """
+    edges = topology.edges
+    inner = np.flatnonzero(~edges.is_boundary)
+    link = coo_array((np.ones(len(inner)), edges.faces[inner].T), shape=(topology.face_count,) * 2).tocsr()
+    _, parent = breadth_first_order(link, 0, directed=False)
+    first, second = edges.faces[:, 0], edges.faces[:, 1]
+    joined = ~edges.is_boundary & ((parent[first] == second) | (parent[second] == first))
+    severed = ~joined
+    while True:
+        degree = np.bincount(edges.vertices[severed].ravel(), minlength=topology.vertex_count)
+        loose = severed & ~edges.is_boundary & (degree[edges.vertices] == 1).any(axis=1)
+        if not loose.any():
+            break
+        severed &= ~loose
+    return _severed(topology, severed & ~edges.is_boundary)
+
+
+def _severed(topology: Topology, severed: np.ndarray) -> Cut:
+    """The topology with the faces at severed edges (mask over edges) parted."""
+    corners = topology.corners
+    key = _edge_keys(topology.edges.vertices, topology.vertex_count)
     corner_key = _edge_keys(np.stack([corners.vertex, corners.next], axis=1), topology.vertex_count)
     order = np.argsort(corner_key, kind="stable")
     twins = np.flatnonzero(np.diff(corner_key[order]) == 0)
