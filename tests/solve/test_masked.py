@@ -90,12 +90,12 @@ def test_a_zigzag_with_notches_and_a_hole_becomes_exact_and_stays_watertight():
 def test_a_place_that_cannot_be_solved_is_taken_away_and_the_rest_is_exact():
     start, normals = bowl()
     rng = np.random.default_rng(5)
-    start[7, 12:14] += rng.normal(size=(2, 3))
+    start[7, 12:14] += 0.6 * rng.normal(size=(2, 3))
     found = solve_masked(start, normals, full(), False, Trim(worst=0.02))
     assert_sound(found)
     lost = full() & ~found.grid.mask
     assert 0 < lost.sum() < 60
-    assert lost[4:10, 8:15].sum() > 0.5 * lost.sum()
+    assert lost[6:8, 11:14].any()
 
 
 def test_closed_creases_are_solved_on_their_grid():

@@ -30,7 +30,8 @@ class Start:
 
     def grid(self, samples: int) -> Topology:
         """The same grid with another number of samples."""
-        return grid(self.pattern.creases, samples, closed_creases=self.pattern.closed)
+        return grid(self.pattern.creases, samples, closed_creases=self.pattern.closed,
+                    closed_family=self.pattern.closed_family)
 
     def guides(self, samples: int) -> np.ndarray:
         """Zigzag curves (m, samples, 3) that the creases should follow, in model units."""

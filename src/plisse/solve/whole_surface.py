@@ -42,6 +42,7 @@ SCAN = Trim(rounds=7, hold=0.1)
 HOLDS = (0.03, 0.3, 0.0)
 FINALISTS = 3
 FARNESS = 0.04  # coverage that one amplitude of mean deviation is worth
+TORN = 0.003  # coverage that a hole costs: the sheet must be cut up to it
 NEAR = 0.3  # mean deviation in amplitudes below which nothing more is asked for
 COMFORTABLE = {"sector": 20.0, "opening": 30.0}  # degrees above which larger angles are no better
 
@@ -50,7 +51,10 @@ Progress = Callable[[str, float], None]
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A layout and what came of it: coverage, deviation of the mid-surface, smallest angles in radians."""
+    """A layout and what came of it: coverage, deviation of the mid-surface, smallest angles in radians.
+
+    `holes` are those that the reference has not.
+    """
 
     layout: Layout
     solved: Masked
@@ -58,6 +62,7 @@ class Candidate:
     deviation: MidSurfaceDeviation
     least_opening: float
     least_sector: float
+    holes: int = 0
 
     @property
     def mean_deviation(self) -> float:
@@ -69,12 +74,13 @@ class Candidate:
         """Sort key: soundness, then coverage and nearness weighed against each other, with a little for openness."""
         ease = sum(min(np.degrees(angle) / COMFORTABLE[name], 1.0)
                    for name, angle in (("sector", self.least_sector), ("opening", self.least_opening)))
-        return self.solved.is_sound, min(self.coverage, FULL) - FARNESS * self.mean_deviation + 0.005 * ease
+        lost = FARNESS * self.mean_deviation + TORN * self.holes
+        return self.solved.is_sound, min(self.coverage, FULL) - lost + 0.005 * ease
 
     @property
     def is_full(self) -> bool:
         """Whether nothing is left to be covered."""
-        return self.solved.is_sound and self.coverage >= FULL
+        return self.solved.is_sound and self.coverage >= FULL and self.holes == 0
 
     @property
     def is_done(self) -> bool:
@@ -100,6 +106,13 @@ class WholeSurface:
     best: Candidate
     candidates: tuple[Candidate, ...]
     notes: tuple[str, ...]
+
+    @property
+    def inclination_by_crease(self) -> dict[int, np.ndarray]:
+        """Inclinations in radians along every crease, by its number among the rows; creases at the rim have none."""
+        edges = self.structure.topology.edges
+        row = self.rows[edges.vertices[edges.is_crease & ~edges.is_boundary, 0]]
+        return {int(k): self.inclination[row == k] for k in np.unique(row)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,7 +148,8 @@ class _Task:
                          covered(self.samples, found.vertices, topology.quads, REACH * layout.sizes.width),
                          mid_surface_deviation(self.surface, found.vertices, topology.quads),
                          float(crease_opening_angles(topology, found.vertices).min(initial=np.pi)),
-                         float(np.minimum(angles := sector_angles(topology, found.vertices), np.pi - angles).min()))
+                         float(np.minimum(angles := sector_angles(topology, found.vertices), np.pi - angles).min()),
+                         1 - topology.euler_characteristic - max(len(self.mesh.boundary_loops) - 1, 0))
 
 
 def whole_surface(mesh: ReferenceMesh, surface: ChartedSurface, *, width: float | None = None,
@@ -144,13 +158,15 @@ def whole_surface(mesh: ReferenceMesh, surface: ChartedSurface, *, width: float 
     """An exact, regular structure over as much of a surface as can be had in one piece.
 
     Lengths are in model units, `theta` (preferred inclination) is in radians. Only layouts around `centre` (3,) are
-    tried where it is given; it may lie anywhere, its chart coordinates count. Without `overhang` |θ| stays below 45° and creases open by 15° at
-    least. Raises Infeasible where no layout has a solution.
+    tried where it is given; it may lie anywhere, its chart coordinates count. Without `overhang` layouts keep |θ|
+    below 45° and creases open by 15° at least. `progress` hears the stage and how much of it is done. Raises
+    Infeasible where no layout has a solution.
     """
     report = progress or (lambda stage, fraction: None)
     width = width or sensible_width(mesh, surface)
-    task = _Task(mesh, surface, AreaSamples.of(mesh.vertices, mesh.triangles), OPENING_RANGE[0] if overhang else FOLDABLE)
-    sizes = Sizes(width, amplitude or AMPLITUDE * width, theta or 0.0, OVERHANG_LIMIT if overhang else UPRIGHT_LIMIT, 0.0)
+    limit, opening = (OVERHANG_LIMIT, OPENING_RANGE[0]) if overhang else (UPRIGHT_LIMIT, FOLDABLE)
+    task = _Task(mesh, surface, AreaSamples.of(mesh.vertices, mesh.triangles), opening)
+    sizes = Sizes(width, amplitude or AMPLITUDE * width, theta or 0.0, limit, 0.0)
     place = None if centre is None else surface.to_plane(np.asarray(centre, float)[None])[0, :2]
     tried: list[Candidate] = []
     for stage, jobs in (("scan", _first(task, sizes, place, candidates)), ("refine", _second(task, tried))):
@@ -199,19 +215,18 @@ def _finished(task: _Task, best: Candidate, tried: tuple[Candidate, ...]) -> Who
     inclination = crease_inclinations(part.topology, vertices, normals, outward)
     facing = dot(face_normals(part.topology, vertices), normals[part.topology.quads].sum(axis=1))
     overhanging = float(np.mean(facing * np.sign(facing.sum()) < 0))
-    notes = _notes(task, best, inclination, overhanging)
-    return WholeSurface(PleatedStructure(part.topology, vertices), best.coverage, best.deviation, inclination, part.rows,
-                        overhanging, best, tried, tuple(notes))
+    notes = _notes(best, inclination, overhanging)
+    structure = PleatedStructure(part.topology, vertices)
+    return WholeSurface(structure, best.coverage, best.deviation, inclination, part.rows, overhanging, best, tried,
+                        tuple(notes))
 
 
-def _notes(task: _Task, best: Candidate, inclination: np.ndarray, overhanging: float) -> Iterator[str]:
+def _notes(best: Candidate, inclination: np.ndarray, overhanging: float) -> Iterator[str]:
     """Sentences on inclinations, holes and parts left out."""
     yield (f"fitted inclination, {best.layout.label}: θ runs from {np.degrees(inclination.min()):.0f}° to "
            f"{np.degrees(inclination.max()):.0f}°, {100 * overhanging:.0f} % of the faces overhang")
-    own = max(len(task.mesh.boundary_loops) - 1, 0)
-    holes = 1 - best.solved.grid.topology.euler_characteristic - own
-    if holes > 0:
-        yield f"the structure has {holes} hole{'s' if holes > 1 else ''} where no exact pleats were found"
+    if best.holes > 0:
+        yield f"the structure has {best.holes} hole{'s' if best.holes > 1 else ''} where no exact pleats were found"
     if best.coverage < FULL:
         yield f"{100 * (1 - best.coverage):.1f} % of the surface are not covered"
     if not best.solved.is_sound:

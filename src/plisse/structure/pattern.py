@@ -18,7 +18,8 @@ class Pattern:
     """Guiding curves `curves` (m, n, 3) with regularised `binormals` (m, n, 3), uniformly parametrised along i.
 
     `theta` (m,) are inclinations in radians, `widths` (m−1, n) the widths of the strips at the curves' parameters.
-    Closed curves do not repeat their first point.
+    Closed curves do not repeat their first point. In a closed family the last curve is followed by the first: `widths`
+    has m rows, and m is even.
     """
 
     curves: np.ndarray
@@ -26,6 +27,7 @@ class Pattern:
     theta: np.ndarray
     widths: np.ndarray
     closed: bool = False
+    closed_family: bool = False
 
     @property
     def creases(self) -> int:
@@ -45,7 +47,7 @@ class Pattern:
     @cached_property
     def topology(self) -> Topology:
         """The obvious quad mesh M0 over the pattern."""
-        return grid(self.creases, self.samples, closed_creases=self.closed)
+        return grid(self.creases, self.samples, closed_creases=self.closed, closed_family=self.closed_family)
 
     @cached_property
     def _spline(self):

@@ -1,0 +1,306 @@
+"""Families of pseudo-geodesics of constant inclination, shot from regularly spaced points of a guide (§3.1, Figs 2, 20).
+
+The guide runs along the unit vectors m, curves leave it at an angle (90°: along n × m) to both sides. Their pleats lean
+along m: creases are moved off the surface by ±d (cos θ n + sin θ m), so reversing a guide lets them lean the other way.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from plisse.errors import Infeasible, InvalidDesign
+from plisse.geometry.mesh import ReferenceMesh
+from plisse.geometry.polyline import arc_length, sample_evenly
+from plisse.geometry.surface import Surface
+from plisse.geometry.vectors import dot, norm, unit
+from plisse.layout.geodesic import geodesic
+from plisse.layout.stops import Trace
+from plisse.layout.trace import trace
+from plisse.layout.widths import mirrored_width
+
+__all__ = ["Family", "Guide", "boundary_guide", "crease_positions", "fan", "guide_through", "section_guide", "shoot"]
+
+NODES = 400
+LARGEST_TURN = np.radians(12.0)
+TUNING_STEPS = 4
+PROBES = 33
+NUDGE = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Guide:
+    """A curve on a surface as a dense polyline (K, 3); closed ones do not repeat their first point.
+
+    `one_sided` guides are crossed to the left only (along n × m): boundary loops.
+    """
+
+    points: np.ndarray
+    closed: bool = False
+    one_sided: bool = False
+
+    @property
+    def length(self) -> float:
+        """Arc length."""
+        return float(self._spline.x[-1])
+
+    def at(self, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Points and unit tangents (N, 3) at arc lengths (N,)."""
+        return self._spline(positions), unit(self._spline(positions, 1))
+
+    def reversed(self) -> "Guide":
+        """The same curve run through backwards: pleats lean the other way."""
+        return Guide(self.points[::-1], self.closed, self.one_sided)
+
+    @cached_property
+    def _spline(self) -> CubicSpline:
+        points = np.concatenate([self.points, self.points[:1]]) if self.closed else self.points
+        return CubicSpline(arc_length(self.points, self.closed), points,
+                           bc_type="periodic" if self.closed else "not-a-knot")
+
+
+def guide_through(surface: Surface, points, closed: bool = False) -> Guide:
+    """The geodesic between two points, or the smooth curve through more of them, taken onto the surface."""
+    points = np.asarray(points, dtype=float)
+    if points.ndim != 2 or points.shape[1] != 3 or not np.isfinite(points).all() or len(points) < (3 if closed else 2):
+        raise InvalidDesign(f"a guide needs {'three' if closed else 'two'} points [x, y, z] or more")
+    if not norm(np.diff(points, axis=0)).min() > 1e-9 * surface.diagonal:
+        raise InvalidDesign("two successive points of the guide are the same")
+    if len(points) == 2:
+        return Guide(geodesic(surface, points[0], points[1], NODES))
+    return _onto(surface, points, closed)
+
+
+def boundary_guide(surface: Surface, mesh: ReferenceMesh, loop: int = 0) -> Guide:
+    """A boundary loop of the mesh (0: the longest), the surface on its left."""
+    loops = mesh.boundary_loops
+    if loop >= len(loops):
+        raise InvalidDesign(f"the surface has {len(loops)} boundary loops, so there is no loop {loop} to guide creases")
+    return Guide(_onto(surface, mesh.vertices[loops[loop]], True).points, True, one_sided=True)
+
+
+def section_guide(surface: Surface, mesh: ReferenceMesh, point, normal) -> Guide:
+    """The curve in which a plane cuts the mesh; of several the one nearest to `point`. It runs along n × normal."""
+    from trimesh import Trimesh
+    from trimesh.graph import connected_components  # noqa: F401  (trimesh needs its graph module for sections)
+
+    point, normal = np.asarray(point, dtype=float), unit(np.asarray(normal, dtype=float)[None])[0]
+    section = Trimesh(mesh.vertices, mesh.triangles, process=False).section(normal, point)
+    if section is None:
+        raise InvalidDesign("the plane of the guide does not meet the surface")
+    lines = section.discrete
+    line = np.asarray(min(lines, key=lambda candidate: norm(candidate - point).min()))
+    closed = bool(norm(line[0] - line[-1]) < 1e-6 * mesh.diagonal)
+    guide = _onto(surface, line[:-1] if closed else line, closed)
+    middle = len(guide.points) // 2
+    tangent = guide.points[middle + 1] - guide.points[middle - 1]
+    wanted = np.cross(surface.project(guide.points[middle:middle + 1]).normals[0], normal)
+    return guide if tangent @ wanted > 0 else guide.reversed()
+
+
+def _onto(surface: Surface, points: np.ndarray, closed: bool) -> Guide:
+    """Evenly sampled points of the curve through the points, on the surface."""
+    even = sample_evenly(points, NODES, closed)
+    found = surface.project(even).positions
+    if not np.isfinite(found).all():
+        raise Infeasible("the guide leaves the surface; give points that lie on it")
+    return Guide(found, closed)
+
+
+@dataclass(frozen=True, eq=False)
+class Family:
+    """Neighbouring `curves` of inclination `theta` with the widths `spacing` of the strips between them at the guide.
+
+    `closed`: the last curve is followed by the first, and `spacing` has as many entries as there are curves. `turns`
+    are the angles in radians by which the starting directions were turned. Curves follow each other along
+    side · t × n.
+    """
+
+    curves: tuple[Trace, ...]
+    theta: float
+    spacing: np.ndarray
+    closed: bool
+    turns: np.ndarray
+    side: float = 1.0
+
+    @property
+    def closed_curves(self) -> bool:
+        """Whether every curve returned to where it began."""
+        return all(curve.closed for curve in self.curves)
+
+    @cached_property
+    def splines(self) -> tuple[CubicSpline, ...]:
+        """Curves by their arc length from the guide, periodic where all are closed."""
+        return tuple(_spline(curve, self.closed_curves) for curve in self.curves)
+
+    @property
+    def ranges(self) -> np.ndarray:
+        """First and last arc length (m, 2) of every curve."""
+        return np.array([spline.x[[0, -1]] for spline in self.splines])
+
+
+def crease_positions(length: float, closed: bool, *, theta: float, width: float, amplitude: float,
+                     creases: int | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Where creases cross a guide of the given length, and the widths of the strips between them.
+
+    Climbing strips have the width s1 = `width`, falling ones s2 with sin θ = d (1/s2 − 1/s1) (Fig. 11). On open guides
+    they stand about the middle, as many as there is room for unless `creases` says how many. Around closed guides their
+    number is even and the width follows from it. Raises Infeasible where they do not fit.
+    """
+    pair = width + _falling(width, theta, amplitude)
+    if closed:
+        count = max(4, 2 * round(length / pair)) if creases is None else creases
+        if count % 2 or count < 4:
+            raise Infeasible(f"a closed family needs an even number of creases, at least 4, not {count}")
+        width = _climbing(2 * length / count, theta, amplitude)
+        spacing = np.tile([width, _falling(width, theta, amplitude)], count // 2)
+        return np.concatenate([[0.0], np.cumsum(spacing)[:-1]]), spacing
+    count = int(2 * np.floor(length / pair) + (length % pair >= width) + 1) if creases is None else creases
+    spacing = np.tile([width, pair - width], count // 2 + 1)[:max(count - 1, 0)]
+    if count < 3 or spacing.sum() > length * (1 + 1e-9):
+        fits = int(2 * np.floor(length / pair) + (length % pair >= width) + 1)
+        raise Infeasible(f"the guide is {length:.4g} long and has room for {fits} creases, not for {max(count, 3)}: give "
+                         "a longer guide, a smaller width or fewer creases")
+    return 0.5 * (length - spacing.sum()) + np.concatenate([[0.0], np.cumsum(spacing)]), spacing
+
+
+def _falling(width: float, theta: float, amplitude: float) -> float:
+    """Width s2 of the falling strip beside a climbing one of width s1."""
+    return float(mirrored_width(np.array(width), np.array(theta), amplitude))
+
+
+def _climbing(pair: float, theta: float, amplitude: float) -> float:
+    """Width s1 of the climbing strip when both together are `pair` wide."""
+    slope = np.sin(theta) / amplitude
+    half = 0.5 * pair
+    return pair - half if slope * half < 1e-9 else float(half + (np.sqrt((slope * half) ** 2 + 1) - 1) / slope)
+
+
+def shoot(surface: Surface, guide: Guide, *, theta: float, width: float, amplitude: float, creases: int | None = None,
+          angle: float = np.pi / 2, tuned: bool = True, length: float | None = None, step: float | None = None,
+          beyond: bool = False) -> Family:
+    """The family of inclination theta (radians) that leaves the guide at an angle, at most `length` to each side.
+
+    With `tuned` every starting direction is turned by up to 12° so that gaps along neighbouring curves stay even.
+    """
+    positions, spacing = crease_positions(guide.length, guide.closed, theta=theta, width=width, amplitude=amplitude,
+                                          creases=creases)
+    starts, tangents = guide.at(positions)
+    at = surface.project(starts)
+    along = unit(tangents - dot(tangents, at.normals)[:, None] * at.normals)
+    across = np.cross(at.normals, along)
+    length = surface.diagonal if length is None else length
+    step = min(surface.diagonal / 200, width / 2) if step is None else step
+
+    def traced(turns: np.ndarray) -> tuple[Trace, ...]:
+        c, s = np.cos(angle + turns)[:, None], np.sin(angle + turns)[:, None]
+        return trace(surface, at.positions, c * along + s * across, theta, length=length, step=step, both=not guide.one_sided,
+                     beyond=beyond)
+
+    turns = np.zeros(len(starts))
+    curves = traced(turns)
+    if tuned and not all(curve.closed for curve in curves):
+        curves, turns = _tuned(traced, curves, turns, spacing, guide.closed)
+    return Family(curves, theta, spacing, guide.closed, turns)
+
+
+def fan(surface: Surface, point, *, theta: float, creases: int, radius: float, sector: tuple[float, float] | None = None,
+        towards=None, side: float = 1.0, length: float | None = None, step: float | None = None, beyond: bool = False) -> Family:
+    """Curves of inclination theta (radians) that leave a point in all directions, or in those of a sector (radians).
+
+    Angles are counted about the normal from the direction `towards`. Pleats lean clockwise, seen from above, for the
+    side +1, otherwise counterclockwise. Widths are nominal at the distance `radius` from
+    the point, where a disk would have them. A full fan is a closed family and needs an even number of creases.
+    """
+    if sector is None and (creases % 2 or creases < 4):
+        raise Infeasible(f"a closed family needs an even number of creases, at least 4, not {creases}")
+    at = surface.project(np.asarray(point, dtype=float)[None])
+    normal = at.normals[0]
+    first = np.eye(3)[np.argmin(np.abs(normal))] if towards is None else np.asarray(towards, dtype=float)
+    x = unit(first - (first @ normal) * normal)
+    low, high = (0.0, 2 * np.pi) if sector is None else sector
+    angle = np.linspace(low, high, creases, endpoint=sector is not None)
+    angle = angle if side < 0 else angle[::-1]
+    directions = np.cos(angle)[:, None] * x + np.sin(angle)[:, None] * np.cross(normal, x)
+    curves = trace(surface, np.repeat(at.positions, creases, axis=0), directions, theta, side, both=False,
+                   length=surface.diagonal if length is None else length,
+                   step=radius / 40 if step is None else step, beyond=beyond)
+    strips = creases if sector is None else creases - 1
+    spacing = np.full(strips, radius * (high - low) / strips)
+    return Family(curves, theta, spacing, sector is None, np.zeros(creases), side)
+
+
+def _tuned(traced: Callable[[np.ndarray], tuple[Trace, ...]], curves: tuple[Trace, ...], turns: np.ndarray,
+           spacing: np.ndarray, closed: bool) -> tuple[tuple[Trace, ...], np.ndarray]:
+    """Curves and turns after Gauss–Newton steps towards gaps that do not change along the strips; the best seen."""
+    best = _unevenness(_gaps(curves, spacing, closed)), curves, turns
+    for _ in range(TUNING_STEPS):
+        nudged = traced(turns + NUDGE)
+        step = _even_step(curves, nudged, spacing, closed)
+        turns = np.clip(turns + step, -LARGEST_TURN, LARGEST_TURN)
+        curves = traced(turns)
+        unevenness = _unevenness(_gaps(curves, spacing, closed))
+        if not unevenness < 0.98 * best[0]:
+            break
+        best = unevenness, curves, turns
+    return best[1], best[2]
+
+
+def _even_step(curves, nudged, spacing: np.ndarray, closed: bool) -> np.ndarray:
+    """Turns (m,) that make relative gaps even to first order; differences between neighbours are held down."""
+    count, strips = len(curves), len(spacing)
+    gaps = _gaps(curves, spacing, closed)
+    sensitivity = []
+    for parity in (0, 1, 2):  # strips see at most two neighbours: three colours tell all derivatives apart
+        mixed = tuple(n if k % 3 == parity else c for k, (c, n) in enumerate(zip(curves, nudged, strict=True)))
+        sensitivity.append((_gaps(mixed, spacing, closed) - gaps) / NUDGE)
+    rows, right = [], []
+    for strip in range(strips):
+        first, second = strip, (strip + 1) % count
+        if first % 3 == second % 3:  # the seam of a closed family whose count is 1 modulo 3
+            continue
+        good = np.isfinite(gaps[strip])
+        for parity in {first % 3, second % 3}:
+            good &= np.isfinite(sensitivity[parity][strip])
+        block = np.zeros((int(good.sum()), count))
+        for curve in (first, second):
+            block[:, curve] = sensitivity[curve % 3][strip, good]
+        rows.append(block)
+        right.append(1 - gaps[strip, good])
+    smooth = np.eye(count) - np.roll(np.eye(count), 1, axis=1)
+    held = 0.3 * np.eye(count)
+    rows += [3.0 * (smooth if closed else smooth[:-1]), held]
+    right += [np.zeros(len(rows[-2])), np.zeros(count)]
+    return np.linalg.lstsq(np.concatenate(rows), np.concatenate(right), rcond=None)[0]
+
+
+def _gaps(curves: tuple[Trace, ...], spacing: np.ndarray, closed: bool) -> np.ndarray:
+    """Gaps (strips, PROBES) between neighbours at equal arc lengths over their widths at the guide; nan past an end."""
+    splines = [_spline(curve, False) for curve in curves]
+    low = float(np.median([spline.x[0] for spline in splines]))
+    high = float(np.median([spline.x[-1] for spline in splines]))
+    at = np.linspace(low, high, PROBES)
+    points, tangents = np.empty((len(curves), PROBES, 3)), np.empty((len(curves), PROBES, 3))
+    for index, spline in enumerate(splines):
+        points[index], tangents[index] = spline(at), unit(spline(at, 1))
+        points[index, (at < spline.x[0]) | (at > spline.x[-1])] = np.nan
+    following = np.roll(np.arange(len(curves)), -1)[:len(spacing)]
+    first = np.arange(len(spacing))
+    across = points[following] - points[first]
+    along = unit(tangents[first] + tangents[following])
+    return norm(across - dot(across, along)[..., None] * along) / spacing[:, None]
+
+
+def _unevenness(gaps: np.ndarray) -> float:
+    """Mean square of the relative gaps' distance from 1; missing ends count as 1."""
+    return float(np.mean(np.where(np.isfinite(gaps), (gaps - 1) ** 2, 1.0)))
+
+
+def _spline(curve: Trace, periodic: bool) -> CubicSpline:
+    along = arc_length(curve.points, periodic)
+    points = np.concatenate([curve.points, curve.points[:1]]) if periodic else curve.points
+    if len(points) < 4:
+        return CubicSpline(along - along[curve.start], points, bc_type="natural")
+    return CubicSpline(along - along[curve.start], points, bc_type="periodic" if periodic else "not-a-knot")
