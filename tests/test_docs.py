@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from plisse.io.designs import design_from_dict
+import plisse
 
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -27,9 +27,13 @@ def test_python_in_the_docs_runs(page, capsys):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_designs_in_the_docs_are_valid(page):
+def test_designs_in_the_docs_become_exact_also_as_varied_there(page):
     for text in blocks(page, "toml"):
-        assert design_from_dict(tomllib.loads(text)).pattern is not None
+        recipe = tomllib.loads(text)
+        assert plisse.design(recipe).status == "exact"
+        for name, value in re.findall(r"--set pattern\.(\w+)=(\S+)", page.read_text(encoding="utf-8")):
+            varied = {**recipe, "pattern": {**recipe["pattern"], name: float(value)}}
+            assert plisse.design(varied).status == "exact", (name, value)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -49,8 +53,6 @@ def test_readme_has_one_test_command_that_ci_can_find():
 
 
 def test_the_package_docstring_example_runs():
-    import plisse
-
     lines = [line[4:] for line in plisse.__doc__.splitlines() if line.startswith("    ")]
     scope = {}
     exec("\n".join(lines), scope)

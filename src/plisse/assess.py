@@ -14,7 +14,7 @@ from plisse.result import Interval, Report, Sheet, Spread
 from plisse.structure.place import place_of
 from plisse.structure.pleated import PleatedStructure
 
-__all__ = ["assess", "spread", "start_defects"]
+__all__ = ["assess", "overlap_notes", "spread", "start_defects"]
 
 ISOMETRIC = 1e-9
 COARSEST = 20.0
@@ -32,8 +32,8 @@ def assess(structure: PleatedStructure, *, principal: bool = False, guides: np.n
     kawasaki = spread(found.principal[inner])
     exact = max(defect.max for defect in [*defects, *([kawasaki] if principal else [])]) <= EXACT
     deviation = _deviation(structure, guides, amplitude)
-    reasons = [*_inexact(structure, found, principal), *_irregular(structure, found), *_not_isometric(found),
-               *_astray(deviation), *_too_coarse(guides, amplitude)]
+    reasons = [*_incomplete(structure, found), *_inexact(structure, found, principal), *_irregular(structure, found),
+               *_not_isometric(found), *_astray(deviation), *_too_coarse(guides, amplitude)]
     degrees = np.degrees(found.openings)
     return Report(
         status="exact" if not reasons else "infeasible" if exact and not _astray(deviation) else "approximate",
@@ -66,6 +66,24 @@ def start_defects(zigzagged: PleatedStructure) -> dict[str, Spread]:
     topology, vertices = zigzagged.topology, zigzagged.vertices
     return {"planarity": spread(planarity_defect(topology, vertices)),
             "angle_defect": spread(angle_defect(topology, vertices)[~topology.is_boundary])}
+
+
+def overlap_notes(report: Report) -> list[str]:
+    """What a maker must know about a development that covers a place twice."""
+    sheet = report.development
+    if sheet is None or not sheet.overlaps:
+        return []
+    place = "" if sheet.overlap_at_mm is None else f" near ({sheet.overlap_at_mm[0]:.0f}, {sheet.overlap_at_mm[1]:.0f}) mm"
+    return [f"the development overlaps itself{place}; cut the sheet apart along rulings and join the pieces after folding"]
+
+
+def _incomplete(structure: PleatedStructure, found: Measurements) -> list[str]:
+    pieces, out = structure.topology.components, []
+    if not found.openings.size:
+        out.append("no crease lies between two faces, so there is no fold to judge")
+    if pieces > 1:
+        out.append(f"the mesh falls into {pieces} pieces; a structure is one")
+    return out
 
 
 def _inexact(structure: PleatedStructure, found: Measurements, principal: bool) -> list[str]:

@@ -6,9 +6,8 @@ from pathlib import Path
 import msgspec
 import numpy as np
 
-from plisse.assess import assess, start_defects
+from plisse.assess import assess, overlap_notes, start_defects
 from plisse.errors import Infeasible
-from plisse.io.consistency import check_design, check_surface_design
 from plisse.io.designs import design_from_dict, read_design
 from plisse.layout.guiding import Guiding, guiding
 from plisse.recipe import Design, SurfaceDesign
@@ -94,7 +93,8 @@ def _by_formula(recipe: Design, watch: Stopwatch) -> Result:
 
 def _exactly(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, watch: Stopwatch) -> Result:
     """The best of the portfolio, to machine precision where the geometry allows it."""
-    foreseen = forecast(guide.pattern, guide.amplitude, recipe.solve.principal).warnings()
+    ahead = forecast(guide.pattern, guide.amplitude, recipe.solve.principal)
+    foreseen = ahead.warnings()
     outcome = solve(_plans(recipe, guide))
     best = outcome.best
     if best.attempt.vertices is None:
@@ -103,12 +103,13 @@ def _exactly(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, watch:
     structure = PleatedStructure(best.start.topology, best.attempt.vertices)
     structure = flatten(structure, best_cut(structure, recipe.solve.cut))
     report = _measured(recipe, best.start.guides(best.start.samples), guide.amplitude, structure, watch)
-    foreseen_matters = bool(report.reasons) or not best.is_comfortable
-    warnings = guide.notes + _notes(best.start, guide)
+    # predictions about rulings are of no interest once a comfortable structure refutes them
+    remaining = foreseen if not best.is_comfortable else ahead.warnings_of_openings()
+    warnings = guide.notes + _notes(best.start, guide) + overlap_notes(report)
     report = msgspec.structs.replace(
         report, start=start_defects(zigzagged), iterations=best.attempt.iterations, method=best.attempt.method,
         history=[float(value) for value in best.attempt.history], tried=_said_of(outcome),
-        warnings=warnings + (foreseen if foreseen_matters and not report.reasons else []),
+        warnings=warnings + ([] if report.reasons else remaining),
         reasons=report.reasons + (foreseen if report.reasons else []))
     return Result(recipe, report, best.start.pattern, zigzagged, structure)
 
@@ -136,10 +137,8 @@ def _measured(recipe: Design, guides: np.ndarray, amplitude: float, structure: P
 
 
 def _checked(recipe: Design | SurfaceDesign | dict | str | Path) -> Design | SurfaceDesign:
-    if isinstance(recipe, Design):
-        return check_design(recipe)
-    if isinstance(recipe, SurfaceDesign):
-        return check_surface_design(recipe)
+    if isinstance(recipe, Design | SurfaceDesign):
+        return design_from_dict(recipe.to_dict())  # objects made in Python are not validated before
     return design_from_dict(recipe) if isinstance(recipe, dict) else read_design(recipe)
 
 

@@ -11,7 +11,7 @@ from msgspec import Meta
 __all__ = ["MILLIMETRES", "Arc", "ClosedForm", "Cones", "ConicCreases", "Curve", "Design", "Ellipse", "Helix", "Miura",
            "Pattern", "Points", "Solve", "Spline", "Surface", "SurfaceDesign", "SurfacePattern", "TorusKnot"]
 
-Length = Annotated[float, Meta(gt=0, description="a positive length in model units")]
+Length = Annotated[float, Meta(ge=1e-9, le=1e9, description="a length in model units from 1e-9 to 1e9")]
 Inclination = Annotated[float, Meta(ge=0, lt=90, description="degrees from 0 up to, not including, 90")]
 Units = Annotated[Literal["mm", "cm", "m", "in", "ft"], Meta(description="mm, cm, m, in or ft")]
 Range = Annotated[tuple[float, float], Meta(description="two rising numbers")]
@@ -26,7 +26,7 @@ class Arc(_Strict, tag_field="kind", tag="arc", kw_only=True, frozen=True):
     """Circular arc of `radius` about the z axis through `angle` degrees, symmetric about the x axis."""
 
     radius: Length
-    angle: Annotated[float, Meta(gt=0, le=360, description="degrees above 0, at most 360")] = 180.0
+    angle: Annotated[float, Meta(ge=1, le=360, description="degrees from 1 to 360")] = 180.0
     closed: bool = False
 
 
@@ -34,8 +34,8 @@ class Helix(_Strict, tag_field="kind", tag="helix", kw_only=True, frozen=True):
     """Helix about the z axis; `pitch` is the rise per turn."""
 
     radius: Length
-    pitch: Annotated[float, Meta(description="rise per turn in model units")]
-    turns: Annotated[float, Meta(gt=0, le=50, description="number of turns above 0, at most 50")] = 1.0
+    pitch: Annotated[float, Meta(ge=-1e9, le=1e9, description="rise per turn in model units, up to 1e9")]
+    turns: Annotated[float, Meta(ge=0.01, le=50, description="a number of turns from 0.01 to 50")] = 1.0
     closed: bool = False
 
 
@@ -44,7 +44,7 @@ class Ellipse(_Strict, tag_field="kind", tag="ellipse", kw_only=True, frozen=Tru
 
     a: Length
     b: Length
-    angle: Annotated[float, Meta(gt=0, le=360, description="degrees above 0, at most 360")] = 360.0
+    angle: Annotated[float, Meta(ge=1, le=360, description="degrees from 1 to 360")] = 360.0
     closed: bool = True
 
 
@@ -75,7 +75,7 @@ class Points(_Strict, tag_field="kind", tag="points", kw_only=True, frozen=True)
 
     points: Annotated[list[Point], Meta(description="a list of points [x, y, z]")] | None = None
     file: str | None = None
-    smooth: Annotated[float, Meta(ge=0, description="a length in model units, 0 for none")] = 0.0
+    smooth: Annotated[float, Meta(ge=0, le=1e9, description="a length in model units, 0 for none")] = 0.0
     closed: bool = False
 
 
@@ -96,7 +96,7 @@ class Pattern(_Strict, kw_only=True, frozen=True):
                        Meta(description="mirror (widths coupled by Fig. 11) or uniform (the paper's)")] = "mirror"
     method: Annotated[Literal["accurate", "paper"],
                       Meta(description="accurate (midpoint steps) or paper (one step of Fig. 14 per strip)")] = "accurate"
-    smoothing: Annotated[float, Meta(gt=0, le=1, description="a fraction of the curve's length")] | None = None
+    smoothing: Annotated[float, Meta(ge=1e-3, le=1, description="a fraction of the curve's length, from 0.001")] | None = None
 
 
 class Cones(_Strict, tag_field="kind", tag="cones", kw_only=True, frozen=True):
@@ -106,8 +106,8 @@ class Cones(_Strict, tag_field="kind", tag="cones", kw_only=True, frozen=True):
     samples: Annotated[int, Meta(ge=3, le=20_000, description="a whole number from 3 to 20000")] = 100
     radius: Length = 100.0
     width: Length = 6.0
-    slope: Annotated[float, Meta(gt=0, description="rise over run, above 0")] = 1.0
-    sector: Annotated[float, Meta(gt=0, le=360, description="degrees above 0, at most 360")] = 120.0
+    slope: Annotated[float, Meta(ge=0.01, le=100, description="rise over run, from 0.01 to 100")] = 1.0
+    sector: Annotated[float, Meta(ge=1, le=360, description="degrees from 1 to 360")] = 120.0
 
 
 class ConicCreases(_Strict, tag_field="kind", tag="conic-creases", kw_only=True, frozen=True):
@@ -123,8 +123,8 @@ class ConicCreases(_Strict, tag_field="kind", tag="conic-creases", kw_only=True,
     eccentricity: Annotated[float, Meta(ge=0, lt=0.95, description="a number from 0 below 0.95")] = 0.45
     growth: Annotated[float, Meta(gt=1, le=2, description="a ratio above 1, at most 2")] = 1.1
     fold: Annotated[float, Meta(gt=2, lt=178, description="degrees between 2 and 178")] = 70.0
-    start: Annotated[float, Meta(description="degrees")] = 60.0
-    step: Annotated[float, Meta(gt=0, lt=60, description="degrees above 0, below 60")] = 1.5
+    start: Annotated[float, Meta(ge=-360, le=360, description="degrees from -360 to 360")] = 60.0
+    step: Annotated[float, Meta(ge=0.01, lt=60, description="degrees from 0.01, below 60")] = 1.5
 
 
 class Miura(_Strict, tag_field="kind", tag="miura", kw_only=True, frozen=True):

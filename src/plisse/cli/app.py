@@ -39,12 +39,20 @@ def main(tokens: Sequence[str] | None = None) -> int:
     """Exit code of one command; what a user can mend is said in one line on stderr."""
     for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
         os.environ.setdefault(name, "1")  # narrow bands: a second thread only waits (numpy is not imported yet)
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")  # consoles that cannot show ° or θ
     try:
         code = app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
+        sys.stdout.flush()
     except cyclopts.CycloptsError as error:
         return _complain(f"{error}; see `plisse --help`", USAGE)
     except PlisseError as error:
         return _complain(str(error), BAD_INPUT)
+    except (MemoryError, RecursionError):
+        return _complain("this design needs more memory than there is; lower pattern.samples or pattern.creases", BAD_INPUT)
+    except OSError as error:
+        return _complain(f"output failed ({(error.strerror or type(error).__name__).lower()})", BAD_INPUT)
     except KeyboardInterrupt:
         return _complain("interrupted, nothing was written", INTERRUPTED)
     return code if isinstance(code, int) else EXACT

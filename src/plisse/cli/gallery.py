@@ -28,6 +28,8 @@ def gallery(
     from plisse.errors import PlisseError
     from plisse.io.atomic import written
 
+    if name is None and output is not None:
+        raise PlisseError("-o names a file to copy to, but no design is named; give one that `plisse gallery` lists")
     if name is None:
         list_designs({known: description(known) for known in shipped_names()})
         return 0

@@ -49,7 +49,7 @@ def make(
     path = find_design(design)
     recipe = read_design(path, set_)
     directory = Path(path.stem) if output is None else output
-    require_writable(directory)
+    require_writable(directory, FILES)
     from plisse.pipeline import design as solve
 
     with progress(quiet or json) as advance:

@@ -49,7 +49,7 @@ def write_preview(subject: Result | PleatedStructure, path: str | Path, *, title
     facts = _facts(structure, units, layout.reduction)
     if isinstance(subject, Result) and subject.status != "exact":
         facts.append(subject.status)
-    axes.text(MARGIN, 66, title or "", fontsize=11, color=colours.INK, va="center")
+    axes.text(MARGIN, 66, title or "", fontsize=11, color=colours.INK, va="center", parse_math=False)
     axes.text(SIZE[0] - MARGIN, 66, "   ·   ".join(facts), fontsize=7, color=colours.CAPTION, va="center",
               ha="right")
     canvas.print_png(str(path), metadata={"Software": None}, pil_kwargs={"compress_level": 4})

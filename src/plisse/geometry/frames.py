@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import solveh_banded
 
+from plisse.errors import Infeasible
 from plisse.geometry.polyline import segments, tangents
 from plisse.geometry.vectors import dot, norm, unit
 
@@ -65,7 +66,7 @@ def regularised_frame(points: np.ndarray, closed: bool, smoothing: float) -> Fra
     step = 0.5 * float((norm(before) + norm(after)).mean())
     mean = weight.mean() if closed else weight[1:-1].mean()
     if not mean > 0:
-        raise ZeroDivisionError("a straight polyline has no binormal")
+        raise Infeasible("a guiding curve becomes straight and has no side to evolve to; bend the seed curve more")
     smooth = _solve_banded(weight, (smoothing / step) ** 4 * mean, vectors * np.sqrt(weight)[:, None], closed)
     tangent = tangents(points, closed)
     binormal = unit(smooth - dot(smooth, tangent)[:, None] * tangent)

@@ -1,6 +1,7 @@
 """Smoothing of measured polylines over a given length."""
 
 import numpy as np
+from scipy.interpolate import make_interp_spline
 from scipy.sparse import diags_array, eye_array
 from scipy.sparse.linalg import spsolve
 
@@ -20,7 +21,7 @@ def smoothed_polyline(points: np.ndarray, length: float, closed: bool = False) -
     data = np.concatenate([points, points[:1]]) if closed else points
     count = int(np.clip(6 * total[-1] / length, 200, 4000))
     at = np.linspace(0, total[-1], count, endpoint=not closed)
-    even = np.stack([np.interp(at, total, column) for column in data.T], axis=1)
+    even = make_interp_spline(total, data, k=3 if len(data) > 3 else 1, bc_type="periodic" if closed else None)(at)
     bend = diags_array([1.0, -2.0, 1.0], offsets=[0, 1, 2], shape=(count - 2, count)).tolil()
     if closed:
         ring = diags_array([1.0, -2.0, 1.0], offsets=[-1, 0, 1], shape=(count, count)).tolil()

@@ -44,9 +44,12 @@ def written_together(directory: str | Path, owned: Iterable[str] = ()) -> Iterat
         _move_in(stage, directory, owned)
 
 
-def require_writable(directory: str | Path) -> None:
-    """Nothing; raises PlisseError where `directory` cannot be written, before work has gone into it."""
+def require_writable(directory: str | Path, names: Iterable[str] = ()) -> None:
+    """Nothing; raises PlisseError where `directory` or files in it cannot be written, before work has gone into it."""
     directory = Path(directory)
+    for name in names:
+        if (directory / name).is_dir():
+            raise PlisseError(f"{directory / name} is a directory where a file must go; remove it or choose another place")
     with _sentence(directory), _staging(directory) as stage:
         stage.joinpath("probe").touch()
         if directory.exists() and not os.access(directory, os.W_OK):

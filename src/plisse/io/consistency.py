@@ -3,12 +3,15 @@
 import math
 from itertools import pairwise
 
+import numpy as np
+
 from plisse.errors import InvalidDesign
 from plisse.recipe import Arc, ClosedForm, Curve, Design, Ellipse, Helix, Pattern, Points, Spline, SurfaceDesign, TorusKnot
 
 __all__ = ["check_design", "check_surface_design"]
 
 MAX_VERTICES = 250_000
+LARGEST_RATIO = 1e5
 
 
 def check_design(design: Design) -> Design:
@@ -23,11 +26,19 @@ def check_design(design: Design) -> Design:
         raise InvalidDesign(f"{section} is missing; add a [{section}] section, as `plisse gallery fig01d` shows")
     _check_size("pattern", design.pattern)
     _check_pattern(design.pattern)
+    table = design.pattern.width
+    if design.curve.closed and isinstance(table, list) and isinstance(table[0], list) and table[0][0] == table[-1][0] - 1 \
+            and table[0][1] != table[-1][1]:
+        raise InvalidDesign(f"pattern.width is {table[0][1]:g} at position 0 and {table[-1][1]:g} at position 1, but on a "
+                            "closed curve these are one place; give one width for both")
     if design.curve.closed and design.pattern.samples < 5:
         raise InvalidDesign(f"pattern.samples is {design.pattern.samples}, too few for a closed curve; give at least 5")
     if design.solve.cut is not None and not design.curve.closed:
         raise InvalidDesign("solve.cut is set, but the curve is open and needs no cut; remove it or set curve.closed")
+    if design.solve.weights is not None and not any(design.solve.weights):
+        raise InvalidDesign("solve.weights are all 0, so there is nothing to minimise; give at least one above 0")
     _check_curve(design.curve)
+    _check_scale(_size(design.curve), design.pattern)
     return design
 
 
@@ -57,9 +68,37 @@ def _check_pattern(pattern: Pattern) -> None:
     _check_width(pattern.width, pattern.creases)
 
 
+def _check_scale(size: float, pattern: Pattern) -> None:
+    """Refuse lengths so different that they belong to different units."""
+    widths = np.array(pattern.width, dtype=float)
+    widths = widths[:, 1] if widths.ndim == 2 else np.atleast_1d(widths)
+    for name, value in (("pattern.width", widths.max()), ("pattern.width", widths.min()),
+                        ("pattern.amplitude", pattern.amplitude)):
+        if not size / LARGEST_RATIO < value < size * 10:
+            raise InvalidDesign(f"{name} is {value:g}, but the curve measures {size:.3g} model units; "
+                                "give lengths of one scale")
+    if not 1 / LARGEST_RATIO < pattern.amplitude / widths.min() < LARGEST_RATIO:
+        raise InvalidDesign(f"pattern.amplitude is {pattern.amplitude:g} and pattern.width {widths.min():g}; "
+                            "give an amplitude of about half the width")
+
+
+def _size(curve: Curve) -> float:
+    """Rough extent of a curve in model units."""
+    if isinstance(curve, Spline | Points):
+        columns = list(zip(*(curve.points or []), strict=True))
+        return max(max(column) - min(column) for column in columns)
+    if isinstance(curve, Arc):
+        return curve.radius * min(math.radians(curve.angle), 2)
+    if isinstance(curve, Helix):
+        return max(curve.radius * min(2 * math.pi * curve.turns, 2), abs(curve.pitch) * curve.turns)
+    return max(curve.a, curve.b) if isinstance(curve, Ellipse) else curve.R
+
+
 def _check_curve(curve: Curve) -> None:
     if isinstance(curve, Spline | Points):
         _check_points(curve)
+        if isinstance(curve, Points) and curve.smooth > _size(curve):
+            raise InvalidDesign(f"curve.smooth is {curve.smooth:g}, more than the whole curve measures; give less")
     elif isinstance(curve, Helix) and curve.closed:
         raise InvalidDesign("curve.closed is true, but a helix never closes; set curve.closed = false")
     elif isinstance(curve, Arc | Ellipse) and curve.closed and curve.angle < 360:
@@ -79,12 +118,14 @@ def _check_points(curve: Spline | Points) -> None:
         raise InvalidDesign(f"curve.points has {len(points)} points; give at least {least}")
     if len(points) > 100_000:
         raise InvalidDesign(f"curve.points has {len(points)} points; give at most 100000")
+    size = _size(curve)
     last = len(points) if curve.closed and points[0] != points[-1] else len(points) - 1
     for i in range(last):
         j = (i + 1) % len(points)
-        if points[i] == points[j]:
+        if math.dist(points[i], points[j]) <= 1e-9 * size:
             raise InvalidDesign(f"curve.points[{i}] and curve.points[{j}] are the same point {points[i]}; remove one")
-    size = max(max(p[k] for p in points) - min(p[k] for p in points) for k in range(3))
+    if not curve.closed and math.dist(points[0], points[-1]) <= 1e-9 * size:
+        raise InvalidDesign("curve.points begins and ends in the same point; set curve.closed = true and leave out the last")
     largest = max(abs(x) for p in points for x in p)
     if largest > 1e12 or size < 1e-9 * largest or size < 1e-12:
         raise InvalidDesign(f"curve.points span {size:g} model units at coordinates up to {largest:g}; "

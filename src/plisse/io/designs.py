@@ -23,7 +23,7 @@ def read_design(path: str | Path, overrides: Iterable[str] = ()) -> Design | Sur
     """
     path = Path(path)
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         raise InvalidDesign(f"there is no file {path}; give a design file or a name that `plisse gallery` lists") from None
     except (OSError, UnicodeDecodeError) as error:
@@ -32,6 +32,8 @@ def read_design(path: str | Path, overrides: Iterable[str] = ()) -> Design | Sur
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise InvalidDesign(f"{path} is not valid TOML: {error}; mend that line") from None
+    except RecursionError:
+        raise InvalidDesign(f"{path} nests lists or tables too deeply; a design needs two levels") from None
     for override in overrides:
         keys, value = parse_assignment(override)
         _assign(data, keys, value)
@@ -43,6 +45,7 @@ def design_from_dict(data: dict, base: str | Path = ".") -> Design | SurfaceDesi
 
     A `surface` section makes it the design of a reconstruction.
     """
+    data = _plain(data)
     refuse_non_finite(data)
     try:
         if "surface" in data:
@@ -57,7 +60,7 @@ def parse_assignment(text: str) -> tuple[list[str], object]:
     """Keys and value of `section.key=value`; values are TOML, bare words are strings."""
     name, equals, value = text.partition("=")
     keys = name.strip().split(".")
-    if not equals or not all(keys):
+    if not equals or not all(keys) or len(text.splitlines()) > 1 or len(keys) > 4:
         raise InvalidDesign(f"--set {text} is not of the form section.key=value, for example pattern.theta=30")
     try:
         return keys, tomllib.loads(f"value = {value.strip()}")["value"]
@@ -71,6 +74,15 @@ def _assign(data: dict, keys: list[str], value: object) -> None:
         if not isinstance(data, dict):
             raise InvalidDesign(f"--set {'.'.join(keys)} goes through {key}, which is a value and not a section")
     data[keys[-1]] = value
+
+
+def _plain(value):
+    """The same data with NumPy arrays and numbers as lists and numbers."""
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return value.tolist() if hasattr(value, "tolist") else value
 
 
 def _with_mesh(design: SurfaceDesign, base: Path) -> SurfaceDesign:

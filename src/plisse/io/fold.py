@@ -16,6 +16,7 @@ import numpy as np
 from plisse.draw.sheet import front_up
 from plisse.errors import InvalidStructure
 from plisse.io.atomic import written
+from plisse.io.coordinates import checked_coordinates
 from plisse.io.labels import labelled_topology
 from plisse.measure.folds import assignments, fold_angles
 from plisse.structure.cut import Cut
@@ -97,6 +98,8 @@ def read_fold(path: str | Path) -> PleatedStructure:
     path = Path(path)
     frames = _frames(_load(path))
     folded = next((f for f in frames if "foldedForm" in _list(f, "frame_classes")), frames[0])
+    if "creasePattern" in _list(folded, "frame_classes"):
+        raise InvalidStructure(f"{path.name} holds a crease pattern, but no folded form; save that frame too")
     faces = _faces(folded, path)
     vertices = _coordinates(folded, path, 3)
     topology = labelled_topology(len(vertices), faces, _evidence(folded))
@@ -107,7 +110,9 @@ def read_fold(path: str | Path) -> PleatedStructure:
     source = folded.get("vertices_plisse:source")
     if source is None:
         return PleatedStructure(topology, vertices, development=development)
-    return _welded(topology, vertices, development, np.asarray(source), path)
+    if not isinstance(source, list) or not all(type(vertex) is int for vertex in source):
+        raise InvalidStructure(f"vertices_plisse:source in {path.name} does not describe a cut structure")
+    return _welded(topology, vertices, development, np.array(source, np.int64), path)
 
 
 def _welded(topology: Topology, vertices: np.ndarray, development: np.ndarray | None, source: np.ndarray,
@@ -160,10 +165,11 @@ def _faces(frame: dict, path: Path) -> list[list[int]]:
 def _coordinates(frame: dict, path: Path, dimension: int) -> np.ndarray:
     """Coordinates (V, dimension), filled with zeros as FOLD says."""
     try:
-        rows = [(list(map(float, row)) + [0.0] * dimension)[:dimension] for row in frame["vertices_coords"]]
-        return np.array(rows, dtype=float).reshape(-1, dimension)
-    except (KeyError, TypeError, ValueError):
+        rows = np.array([(list(map(float, row)) + [0.0] * dimension)[:dimension] for row in frame["vertices_coords"]],
+                        dtype=float).reshape(-1, dimension)
+    except (KeyError, TypeError, ValueError, OverflowError):
         raise InvalidStructure(f"{path.name} has no vertices_coords that are lists of numbers") from None
+    return checked_coordinates(rows, path)
 
 
 def _evidence(frame: dict):
@@ -175,7 +181,8 @@ def _evidence(frame: dict):
         values = [EVIDENCE.get(letter, 0.0) if isinstance(letter, str) else 0.0
                   for letter in _list(frame, "edges_assignment")]
     pairs = zip(edges, values, strict=False)
-    known = {frozenset(edge): value for edge, value in pairs if isinstance(edge, list)}
+    known = {frozenset(edge): value for edge, value in pairs
+             if isinstance(edge, list) and all(type(vertex) is int for vertex in edge)}
 
     def evidence(start: np.ndarray, end: np.ndarray) -> np.ndarray:
         ends = zip(start.tolist(), end.tolist(), strict=True)

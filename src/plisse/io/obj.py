@@ -8,6 +8,7 @@ import numpy as np
 
 from plisse.errors import InvalidStructure
 from plisse.io.atomic import written
+from plisse.io.coordinates import checked_coordinates
 from plisse.io.labels import labelled_topology
 from plisse.measure.folds import fold_angles
 from plisse.structure.pleated import PleatedStructure
@@ -43,9 +44,8 @@ def read_obj(path: str | Path) -> PleatedStructure:
     vertices, faces, lines = _parse(path)
     if not faces:
         raise InvalidStructure(f"{path.name} has no faces (no lines that start with f); give a quad mesh")
-    if not np.isfinite(vertices).all():
-        bad = int(np.argmin(np.isfinite(vertices).all(axis=1)))
-        raise InvalidStructure(f"vertex {bad + 1} of {path.name} has a coordinate that is not finite")
+    vertices = checked_coordinates(vertices, path)
+    _require_edges(lines, faces, path)
     evidence = _marked(lines) if lines else _folded(vertices, faces)
     return PleatedStructure(labelled_topology(len(vertices), faces, evidence), vertices)
 
@@ -68,6 +68,16 @@ def _parse(path: Path) -> tuple[np.ndarray, list[list[int]], list[list[int]]]:
         if not all(0 <= v < len(vertices) for v in face):
             raise InvalidStructure(f"face {k + 1} of {path.name} names a vertex outside 1 to {len(vertices)}")
     return np.array(vertices, dtype=float).reshape(-1, 3), faces, lines
+
+
+def _require_edges(lines: list[list[int]], faces: list[list[int]], path: Path) -> None:
+    """Raise InvalidStructure where a polyline does not run along edges of faces."""
+    edges = {frozenset((face[k - 1], face[k])) for face in faces for k in range(len(face))}
+    for number, line in enumerate(lines, 1):
+        for a, b in pairwise(line):
+            if frozenset((a, b)) not in edges:
+                raise InvalidStructure(f"polyline {number} of {path.name} runs from vertex {a + 1} to {b + 1}, which is no "
+                                       "edge of a face; let creases run along edges")
 
 
 def _lines(path: Path) -> list[str]:

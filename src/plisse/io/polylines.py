@@ -20,8 +20,12 @@ def read_polyline(path: str | Path) -> np.ndarray:
     suffix = path.suffix.lower()
     if suffix not in (".csv", ".txt", ".npy", ".obj"):
         raise InvalidDesign(f"{path.name} is not a polyline file; give {READERS}")
-    if not path.is_file():
-        raise InvalidDesign(f"there is no curve file {path}; give a path relative to the design")
+    try:
+        found = path.is_file()
+    except OSError:
+        found = False
+    if not found:
+        raise InvalidDesign(f"there is no curve file {str(path)[:200]}; give a path relative to the design")
     try:
         points = {".npy": _read_npy, ".obj": _read_obj}.get(suffix, _read_rows)(path)
     except (OSError, ValueError, UnicodeDecodeError, IndexError) as error:
@@ -34,7 +38,13 @@ def read_polyline(path: str | Path) -> np.ndarray:
 
 
 def _read_npy(path: Path) -> np.ndarray:
-    return np.asarray(np.load(path, allow_pickle=False), dtype=float)
+    try:
+        array = np.load(path, allow_pickle=False)
+    except ValueError:
+        raise ValueError("it is no array of numbers") from None
+    if not isinstance(array, np.ndarray) or array.dtype.kind not in "fiu":
+        raise ValueError("its numbers are not real")
+    return array.astype(float)
 
 
 def _read_rows(path: Path) -> np.ndarray:

@@ -75,10 +75,10 @@ def refuse_collapse(points: np.ndarray, before: np.ndarray, seed: np.ndarray, cr
     stretch = np.where(np.isfinite(edges).all(axis=1), dot(edges, previous) / norm(previous) / norm(original), -1.0)
     if stretch.min() < SMALLEST_STRETCH:
         place = 100 * (int(np.argmin(stretch)) + 0.5) / len(edges)
+        advice = f"keep pattern.creases to {crease - 1} or less, " if crease > 3 else ""
         raise Infeasible(
             f"the guiding curves run into their centre of curvature: crease {crease + 1} collapses near {place:.0f} % "
-            f"of its length; keep pattern.creases to {max(crease - 1, 2)} or less, lower pattern.width, or start from "
-            "a flatter seed curve")
+            f"of its length; {advice}lower pattern.width, or start from a flatter seed curve")
 
 
 def _edges(points: np.ndarray, closed: bool) -> np.ndarray:

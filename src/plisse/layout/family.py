@@ -25,7 +25,7 @@ __all__ = ["Family", "Guide", "boundary_guide", "crease_positions", "fan", "guid
 
 NODES = 400
 LARGEST_TURN = np.radians(12.0)
-TUNING_STEPS = 4
+TUNING_STEPS = 3
 PROBES = 33
 NUDGE = 1e-3
 
@@ -192,18 +192,15 @@ def shoot(surface: Surface, guide: Guide, *, theta: float, width: float, amplitu
     along = unit(tangents - dot(tangents, at.normals)[:, None] * at.normals)
     across = np.cross(at.normals, along)
     length = surface.diagonal if length is None else length
-    step = min(surface.diagonal / 200, width / 2) if step is None else step
+    step = surface.diagonal / 150 if step is None else step
 
-    def traced(turns: np.ndarray) -> tuple[Trace, ...]:
+    def traced(turns: np.ndarray, step: float = 2 * step) -> tuple[Trace, ...]:
         c, s = np.cos(angle + turns)[:, None], np.sin(angle + turns)[:, None]
         return trace(surface, at.positions, c * along + s * across, theta, length=length, step=step, both=not guide.one_sided,
                      beyond=beyond)
 
-    turns = np.zeros(len(starts))
-    curves = traced(turns)
-    if tuned and not all(curve.closed for curve in curves):
-        curves, turns = _tuned(traced, curves, turns, spacing, guide.closed)
-    return Family(curves, theta, spacing, guide.closed, turns)
+    turns = _tuned(traced, len(starts), spacing, guide.closed) if tuned else np.zeros(len(starts))
+    return Family(traced(turns, step), theta, spacing, guide.closed, turns)
 
 
 def fan(surface: Surface, point, *, theta: float, creases: int, radius: float, sector: tuple[float, float] | None = None,
@@ -232,20 +229,24 @@ def fan(surface: Surface, point, *, theta: float, creases: int, radius: float, s
     return Family(curves, theta, spacing, sector is None, np.zeros(creases), side)
 
 
-def _tuned(traced: Callable[[np.ndarray], tuple[Trace, ...]], curves: tuple[Trace, ...], turns: np.ndarray,
-           spacing: np.ndarray, closed: bool) -> tuple[tuple[Trace, ...], np.ndarray]:
-    """Curves and turns after Gauss–Newton steps towards gaps that do not change along the strips; the best seen."""
-    best = _unevenness(_gaps(curves, spacing, closed)), curves, turns
+def _tuned(traced: Callable[[np.ndarray], tuple[Trace, ...]], count: int, spacing: np.ndarray,
+           closed: bool) -> np.ndarray:
+    """Turns (m,) after Gauss–Newton steps towards gaps that do not change along the strips; the best seen."""
+    turns = np.zeros(count)
+    curves = traced(turns)
+    if all(curve.closed for curve in curves):
+        return turns
+    best = _unevenness(_gaps(curves, spacing, closed)), turns
     for _ in range(TUNING_STEPS):
         nudged = traced(turns + NUDGE)
         step = _even_step(curves, nudged, spacing, closed)
         turns = np.clip(turns + step, -LARGEST_TURN, LARGEST_TURN)
         curves = traced(turns)
         unevenness = _unevenness(_gaps(curves, spacing, closed))
-        if not unevenness < 0.98 * best[0]:
+        if not unevenness < 0.95 * best[0]:
             break
-        best = unevenness, curves, turns
-    return best[1], best[2]
+        best = unevenness, turns
+    return best[1]
 
 
 def _even_step(curves, nudged, spacing: np.ndarray, closed: bool) -> np.ndarray:

@@ -18,9 +18,9 @@ from plisse.structure.pattern import Pattern, interpolate_along
 
 __all__ = ["guided_pattern", "pattern_of", "trajectories"]
 
-PROBES = 240  # trajectories by which the usable rectangle is found
+PROBES = 160  # trajectories by which the usable rectangle is found
 GAPS = (0.35, 2.9)  # usable gaps, relative to the width of the strip at the guide
-SHORTEST = 4.0  # mean widths that creases must be long
+SHORTEST = 2.0  # mean widths that creases must be long
 NEWTON_STEPS = 6
 CLOSING_STEPS = 12
 
@@ -145,19 +145,34 @@ def _crossing(family: Family, at: np.ndarray) -> Crossing:
 
 
 def _closed(family: Family, start: int, at: np.ndarray) -> np.ndarray:
-    """Arc lengths (m, n) on the curves from `start` on, once around: every step corrected by an equal share."""
+    """Arc lengths (m, n) on the curves from `start` on, once around: steps are slanted so that columns close.
+
+    The slant, the same at every step of a column, is found by the secant method.
+    """
     count = len(family.curves)
-    share = np.zeros_like(at)
-    for _ in range(CLOSING_STEPS):
+    order = (start + np.arange(count + 1)) % count
+    share = family.spacing[order[:-1]] / family.spacing.sum()
+
+    def around(slant: np.ndarray) -> np.ndarray:
         rows = [at]
         for step in range(count):
-            row, following = (start + step) % count, (start + step + 1) % count
-            rows.append(_opposite(family, row, following, rows[-1]) - share)
-        miss = rows[-1] - at
+            rows.append(_opposite(family, order[step], order[step + 1], rows[-1]) - share[step] * slant)
+        return np.stack(rows)
+
+    # a family with rotational symmetry has columns at equal distances from the guide
+    slant = np.sum([_opposite(family, order[step], order[step + 1], at) - at for step in range(count)], axis=0)
+    before, rows = slant + 1e-3 * family.spacing.sum(), around(slant)
+    miss, missed = rows[-1] - at, around(before)[-1] - at
+    for _ in range(CLOSING_STEPS):
         if not np.nanmax(np.abs(miss), initial=0) > 1e-9 * family.spacing.sum():
             break
-        share = share + miss / count
-    return np.stack(rows[:-1])
+        slope = (miss - missed) / np.where(slant == before, np.nan, slant - before)
+        step = np.nan_to_num(miss / np.where(np.abs(slope) > 1e-3 * share.max(), slope, np.nan))
+        before, missed, slant = slant, miss, slant - step
+        rows = around(slant)
+        miss = rows[-1] - at
+    rows[:, ~(np.abs(miss) < 1e-3 * family.spacing.mean())] = np.nan
+    return rows[:-1]
 
 
 def _opposite(family: Family, row: int, following: int, at: np.ndarray) -> np.ndarray:
@@ -169,19 +184,15 @@ def _opposite(family: Family, row: int, following: int, at: np.ndarray) -> np.nd
     longest = 2 * float(family.spacing.mean())
     found = at.copy()
     for _ in range(NEWTON_STEPS):
-        velocity = neighbour(np.clip(found, low, high)) if False else neighbour(_held(family, found, low, high), 1)
+        held = found if family.closed_curves else np.clip(found, low, high)  # straight beyond the ends
+        velocity = neighbour(held, 1)
         both = tangent + unit(velocity)
-        error = dot(neighbour(_held(family, found, low, high)) - origin, both)
-        error = error + np.where(family.closed_curves, 0.0, (found - _held(family, found, low, high)) * 2)
+        error = dot(neighbour(held) + (found - held)[:, None] * velocity - origin, both)
         found = found - np.clip(error / np.maximum(dot(velocity, both), 0.4), -longest, longest)
     if family.closed_curves:
         return found
     with np.errstate(invalid="ignore"):
         return np.where((found >= low - slack) & (found <= high + slack), found, np.nan)
-
-
-def _held(family: Family, at: np.ndarray, low: float, high: float) -> np.ndarray:
-    return at if family.closed_curves else np.clip(at, low, high)
 
 
 def _rectangle(family: Family, crop: bool) -> tuple[slice, int, tuple[float, float]]:
@@ -190,7 +201,8 @@ def _rectangle(family: Family, crop: bool) -> tuple[slice, int, tuple[float, flo
     ranges = family.ranges
     found: tuple[float, slice, int, tuple[float, float]] | None = None
     order = np.argsort(np.ptp(ranges, axis=1))
-    for start in sorted({count // 2, count // 4, (3 * count) // 4, int(order[0]), int(order[count // 2])}):
+    starts = {0} if family.closed else {count // 2, count // 4, (3 * count) // 4, int(order[0])}
+    for start in sorted(starts):
         at = np.linspace(*ranges[start], PROBES, endpoint=not family.closed_curves)
         crossing = trajectories(family, start, at)
         usable = crossing.usable(family)
@@ -266,5 +278,7 @@ def _disarray(family: Family) -> str:
                 return (f"curves {strip + 1} and {(strip + 1) % count + 1} of {count} {what} {where:.4g} from the guide: "
                         f"change {lean}, give fewer creases, or another guide")
     short = int(np.argmin(np.ptp(family.ranges, axis=1)))
+    if family.curves[short].stop is Stop.LENGTH:
+        return f"the creases are not longer than {SHORTEST:g} widths; give a larger length or a smaller width"
     return (f"curve {short + 1} of {count} is only {np.ptp(family.ranges[short]):.4g} long ({family.curves[short].stop}): "
             "give fewer creases, or a guide through the middle of the surface")

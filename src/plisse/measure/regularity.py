@@ -1,4 +1,4 @@
-"""Regularity: what makes an exact mesh foldable. Sector angles, inverted faces, self-intersection in space."""
+"""Regularity: what makes an exact mesh foldable. Sector angles, opening angles, inverted faces."""
 
 from dataclasses import dataclass
 

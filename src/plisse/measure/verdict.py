@@ -1,4 +1,4 @@
-"""The one judgement that decides about attempts and about the status of a result."""
+"""The judgement by which attempts are compared; `assess` gives the final status with the same limits and more."""
 
 from dataclasses import dataclass
 

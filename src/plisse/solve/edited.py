@@ -46,7 +46,7 @@ def edited_structure(structure: PleatedStructure, rest_moved: np.ndarray, *, nor
                      hold: float = HOLD, least_opening: float = OPENING_RANGE[0]) -> Edited:
     """The exact structure nearest in shape to a solved one carried along to vertices `rest_moved` (V, 3).
 
-    With the `normals` (V, 3) of the edited surface its mid-surface is held along them by `hold`. The whole motion is
+    With the `normals` (V, 3) of the edited surface its mid-surface is held along them by `hold`, where that can be. The whole motion is
     tried at once, smaller steps where that leads to nothing exact and regular with creases open by `least_opening`
     radians and folded as they were. Raises Infeasible, with how far the edit could be followed.
     """
@@ -89,10 +89,9 @@ class _Task:
     def solved(self, start: np.ndarray, fraction: float) -> np.ndarray | None:
         """Vertices for a part of the motion, or None where nothing sound was found."""
         rest = self.before + fraction * self.motion
-        extra = []
-        if self.normals is not None and self.hold > 0:
-            extra.append(mid_surface_closeness(self.topology, rest, self.normals, self.hold))
-        for weights in (GENTLE, FIRM):
+        held = [] if self.normals is None or self.hold == 0 else [
+            mid_surface_closeness(self.topology, rest, self.normals, self.hold)]
+        for weights, extra in ((GENTLE, held), (FIRM, held), (FIRM, [])):
             try:
                 at = anneal(self.topology, start, rest=rest, weights=weights, fairness=FAIRNESS, extra=extra)
                 found = polish(self.constraints, at, steps=POLISH_STEPS)

@@ -8,11 +8,14 @@ from plisse.solve.principal import PrincipalFit, fit_candidates
 
 __all__ = ["constructed"]
 
+FEWEST_SAMPLES = 12
 FITS = 2  # later candidates take long and have hardly ever been better
 
 
 def constructed(start: Start) -> Attempt:
     """The attempt on a start; a march that breaks down is a message, not an exception."""
+    if start.samples < FEWEST_SAMPLES:
+        return Attempt("constructed", None, f"{start.samples} samples are too few for an explicit fit")
     best: PrincipalFit | None = None
     try:
         guides = start.guides(start.samples)

@@ -1,0 +1,174 @@
+"""`plisse layout`: ways to pleat a surface, as a table and a picture, and the best one as a design to edit."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from plisse.geometry.graph import GraphSurface
+    from plisse.recipe import SurfaceDesign
+    from plisse.solve.whole_surface import Candidate, WholeSurface
+
+__all__ = ["FILES", "design_text", "layout"]
+
+FILES = ("candidates.png", "layout.toml")
+
+
+def layout(
+    file: str,
+    /,
+    *,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    count: int = 20,
+    quiet: Annotated[bool, Parameter(negative=())] = False,
+) -> int:
+    """Lay out pleats over a surface: all candidates in a table and a picture, the best one as a design to edit.
+
+    Parameters
+    ----------
+    file
+        A mesh (.obj, .ply, .stl, .off, .glb), or a design with a surface section.
+    output
+        Directory for candidates.png and layout.toml; the file's name with -layout if left out.
+    count
+        How many layouts to try; the search ends earlier where one covers everything.
+    quiet
+        Print nothing.
+    """
+    import numpy as np
+
+    from plisse.cli.console import progress
+    from plisse.draw.candidates import write_candidates
+    from plisse.errors import PlisseError
+    from plisse.io.atomic import require_writable, written_together
+    from plisse.reconstruction import reference_surface
+    from plisse.solve.whole_surface import whole_surface
+
+    if count < 1:
+        raise PlisseError(f"--count {count} leaves nothing to try; give a number from 1")
+    recipe = _recipe(file)
+    directory = Path(f"{Path(file).stem}-layout") if output is None else output
+    if (directory / "layout.toml").exists():
+        raise PlisseError(f"{directory / 'layout.toml'} exists already; remove it or choose another directory with -o")
+    require_writable(directory)
+    mesh, surface = reference_surface(recipe.surface)
+    pattern = recipe.pattern
+    with progress(quiet) as advance:
+        found = whole_surface(
+            mesh, surface, width=pattern.width, amplitude=pattern.amplitude, overhang=recipe.surface.overhang,
+            theta=None if pattern.theta is None else float(np.radians(pattern.theta)),
+            centre=None if recipe.surface.centre is None else np.array(recipe.surface.centre),
+            candidates=count, progress=advance)
+    chosen = found.candidates.index(found.best)
+    with written_together(directory, owned=FILES) as stage:
+        write_candidates(found.candidates, chosen, mesh, surface, stage / "candidates.png", title=Path(file).name)
+        text = design_text(recipe, found.best, surface, directory, count)
+        (stage / "layout.toml").write_text(text, encoding="utf-8", newline="\n")
+    if not quiet:
+        _show(found, chosen, directory)
+    return 0 if found.best.solved.is_sound else 3
+
+
+def design_text(recipe: SurfaceDesign, candidate: Candidate, surface: GraphSurface, directory: Path, count: int) -> str:
+    """The design of one candidate as TOML, with the mesh file as seen from `directory`."""
+    section, pattern, sizes = recipe.surface, recipe.pattern, candidate.layout.sizes
+    lines = [f"# {candidate.layout.label}: {100 * candidate.coverage:.1f} % covered, mean deviation "
+             f"{candidate.mean_deviation:.2f} amplitudes", f"units = {json.dumps(recipe.units)}", "", "[surface]"]
+    if section.file is not None:
+        lines.append(f"file = {_quoted(_relative(Path(section.file), directory))}")
+    else:
+        lines += [f"height = {_quoted(section.height or '')}", f"x = {list(section.x)}", f"y = {list(section.y)}"]
+    centre = section.centre if section.centre is not None else _centre(candidate, surface, count)
+    if centre is not None:
+        lines.append(f"centre = {[float(value) for value in centre]}  # rows run around this point")
+    lines.append(f"overhang = {'true' if section.overhang else 'false'}  # may pleats lean by more than 45 degrees?")
+    lines += ["", "[pattern]"]
+    if centre is not None:
+        lines += [f"width = {float(sizes.width)}  # of a strip", f"amplitude = {float(sizes.amplitude)}  # off the surface"]
+    else:
+        # sizes belong to the search: what was asked for leads to the same layout again
+        lines += [f"{name} = {value}" for name in ("width", "amplitude") if (value := getattr(pattern, name)) is not None]
+        lines.append(f"# this layout has width {sizes.width:.4g} and amplitude {sizes.amplitude:.4g}")
+    lines.append(f"theta = {0.0 if pattern.theta is None else float(pattern.theta)}  # preferred inclination in degrees")
+    return "\n".join(lines) + "\n"
+
+
+def _recipe(file: str) -> SurfaceDesign:
+    from plisse.cli.shipped import find_design, shipped_names
+    from plisse.errors import InvalidDesign
+    from plisse.io.designs import read_design
+    from plisse.recipe import Surface, SurfaceDesign
+
+    if Path(file).suffix.lower() != ".toml" and file not in shipped_names():
+        return SurfaceDesign(surface=Surface(file=file))
+    recipe = read_design(find_design(file))
+    if not isinstance(recipe, SurfaceDesign):
+        raise InvalidDesign(f"{file} has no surface section, so there is nothing to lay out; give a mesh or such a design")
+    return recipe
+
+
+def _centre(candidate: Candidate, surface: GraphSurface, count: int) -> np.ndarray | None:
+    """The point (3,) around which a candidate's rows run, or None where they run between boundaries."""
+    import numpy as np
+
+    from plisse.layout.automatic import centres
+
+    for place in centres(surface.mesh, surface, count):
+        if candidate.layout.label.startswith(f"centre ({place[0]:.4g}, {place[1]:.4g})"):
+            return surface.to_space(np.array([[*place, 0.0]]))[0]
+    return None
+
+
+def _relative(file: Path, directory: Path) -> str:
+    import os
+
+    return Path(os.path.relpath(file, directory)).as_posix()
+
+
+def _quoted(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False)
+
+
+def _show(found: WholeSurface, chosen: int, directory: Path) -> None:
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
+    for name in ("", "layout", "status", "covered", "deviation", "sector", "opening", "θ"):
+        table.add_column(name, justify="left" if name in ("layout", "status") else "right")
+    for k, candidate in enumerate(found.candidates):
+        style = "bold" if k == chosen else ""
+        table.add_row(*(Text(part, style=style) for part in (str(k + 1), *_row(candidate))))
+    console = Console(highlight=False)
+    console.print(table)
+    console.print(Text("deviation: mean, in amplitudes; sector and opening: smallest, in degrees", style="dim"))
+    for note in found.notes:
+        console.print(Text(f"· {note}"))
+    console.print(Text(f"number {chosen + 1} is in {directory / 'layout.toml'}, all are in {directory / 'candidates.png'}"))
+
+
+def _row(candidate: Candidate) -> tuple[str, ...]:
+    import numpy as np
+
+    low, high = np.degrees(_inclinations(candidate))
+    status = "exact" if candidate.solved.is_sound else "irregular" if candidate.solved.is_exact else "not exact"
+    return (candidate.layout.label, status, f"{100 * candidate.coverage:.1f} %", f"{candidate.mean_deviation:.2f}",
+            f"{np.degrees(candidate.least_sector):.0f}°", f"{np.degrees(candidate.least_opening):.0f}°",
+            f"{low:.0f}° to {high:.0f}°")
+
+
+def _inclinations(candidate: Candidate) -> tuple[float, float]:
+    """Smallest and largest inclination as folded, in radians."""
+    from plisse.measure.inclination import crease_inclinations
+
+    part, net = candidate.solved.grid, candidate.layout.net
+    normals, outward = (field.reshape(-1, 3)[part.used] for field in (net.normals, net.outward))
+    found = crease_inclinations(part.topology, candidate.solved.vertices, normals, outward)
+    return float(found.min()), float(found.max())
