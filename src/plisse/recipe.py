@@ -96,7 +96,7 @@ class Pattern(_Strict, kw_only=True, frozen=True):
                        Meta(description="mirror (widths coupled by Fig. 11) or uniform (the paper's)")] = "mirror"
     method: Annotated[Literal["accurate", "paper"],
                       Meta(description="accurate (midpoint steps) or paper (one step of Fig. 14 per strip)")] = "accurate"
-    smoothing: Annotated[float, Meta(ge=1e-3, le=1, description="a fraction of the curve's length, from 0.001")] | None = None
+    smoothing: Annotated[float, Meta(ge=1e-3, le=1, description="a fraction of the curve's length")] | None = None
 
 
 class Cones(_Strict, tag_field="kind", tag="cones", kw_only=True, frozen=True):

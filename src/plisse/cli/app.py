@@ -12,6 +12,7 @@ import cyclopts
 
 from plisse.cli.check import check
 from plisse.cli.gallery import gallery
+from plisse.cli.layout import layout
 from plisse.cli.make import make
 from plisse.errors import PlisseError
 
@@ -33,6 +34,7 @@ app = cyclopts.App(
 app.command(make)
 app.command(check)
 app.command(gallery)
+app.command(layout)
 
 
 def main(tokens: Sequence[str] | None = None) -> int:
