@@ -175,7 +175,8 @@ class Design(_Strict, kw_only=True, frozen=True):
 class Surface(_Strict, kw_only=True, frozen=True):
     """A reference surface: a mesh file, or a height z(x, y) over a rectangle; layouts are found automatically.
 
-    `centre` names the point of the surface around which rows are laid; `overhang` allows folds leaning over 45°.
+    `centre` names the point of the surface around which rows are laid. Without `overhang` inclinations are fitted below
+    45° and creases open by 15° at least; where faces overhang all the same the report says how many.
     """
 
     file: str | None = None
@@ -187,7 +188,10 @@ class Surface(_Strict, kw_only=True, frozen=True):
 
 
 class SurfacePattern(_Strict, kw_only=True, frozen=True):
-    """What may be asked of the pleats over a surface; everything else follows from its size and curvature."""
+    """What may be asked of the pleats over a surface; everything else follows from its size and curvature.
+
+    `theta` is a preference: inclinations are fitted, and the report gives them along every crease.
+    """
 
     theta: Inclination | None = None
     width: Length | None = None

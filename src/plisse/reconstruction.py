@@ -38,9 +38,5 @@ def deviation_of(found: WholeSurface, diagonal: float) -> Deviation:
 
 def inclinations_of(found: WholeSurface) -> list[Interval]:
     """Smallest and largest inclination in degrees along every inner crease, in the order of the rows."""
-    topology = found.structure.topology
-    edges = topology.edges
-    inner = edges.is_crease & ~edges.is_boundary
-    row = found.rows[edges.vertices[inner, 0]]
-    degrees = np.degrees(found.inclination)
-    return [Interval(float(degrees[row == k].min()), float(degrees[row == k].max())) for k in np.unique(row)]
+    rows = (np.degrees(row) for row in found.inclination_by_crease.values())
+    return [Interval(float(row.min()), float(row.max())) for row in rows]

@@ -140,7 +140,7 @@ def _show(found: WholeSurface, chosen: int, directory: Path) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
+    table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0), header_style="dim")
     for name in ("", "layout", "status", "covered", "deviation", "sector", "opening", "θ"):
         table.add_column(name, justify="left" if name in ("layout", "status") else "right")
     for k, candidate in enumerate(found.candidates):
@@ -159,7 +159,7 @@ def _row(candidate: Candidate) -> tuple[str, ...]:
 
     low, high = np.degrees(_inclinations(candidate))
     status = "exact" if candidate.solved.is_sound else "irregular" if candidate.solved.is_exact else "not exact"
-    return (candidate.layout.label, status, f"{100 * candidate.coverage:.1f} %", f"{candidate.mean_deviation:.2f}",
+    return (candidate.layout.label.removeprefix("rows "), status, f"{100 * candidate.coverage:.1f} %", f"{candidate.mean_deviation:.2f}",
             f"{np.degrees(candidate.least_sector):.0f}°", f"{np.degrees(candidate.least_opening):.0f}°",
             f"{low:.0f}° to {high:.0f}°")
 

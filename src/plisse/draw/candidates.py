@@ -14,7 +14,7 @@ __all__ = ["write_candidates"]
 
 DOTS_PER_INCH = 150
 ACROSS, LARGEST = 5, 10.0  # pictures in a row, inches
-TITLE, CAPTION, GAP = 0.5, 0.42, 0.16  # inches
+TITLE, CAPTION, GAP = 0.45, 0.2, 0.16  # inches
 CHOSEN = colours.MOUNTAIN
 
 
@@ -44,21 +44,23 @@ def write_candidates(candidates: Sequence[Candidate], chosen: int, mesh: Referen
     for k, candidate in enumerate(candidates):
         row, column = divmod(k, across)
         left = GAP + column * (width + GAP)
-        bottom = size[1] - TITLE - (row + 1) * (height + CAPTION + GAP) + GAP
+        bottom = size[1] - TITLE - (row + 1) * (height + CAPTION + GAP)
         axes = figure.add_axes((left / size[0], bottom / size[1], width / size[0], height / size[1]),
                                facecolor=colours.PAPER)
         _draw(axes, candidate, surface, outline, width * DOTS_PER_INCH)
         axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), xticks=[], yticks=[])
         axes.set_aspect("equal", adjustable="datalim")
         axes.spines[:].set(color=CHOSEN if k == chosen else colours.RULING, linewidth=2.0 if k == chosen else 0.4)
-        axes.set_title(f"{k + 1}   {_said(candidate)}", fontsize=8, loc="left", pad=4,
+        axes.set_title(f"{k + 1}   {_said(candidate)}", fontsize=7.5, loc="left", pad=4,
                        color=CHOSEN if k == chosen else colours.INK)
     canvas.print_png(str(path), metadata={"Software": None})
 
 
 def _said(candidate: Candidate) -> str:
-    note = "" if candidate.solved.is_sound else ", not regular" if candidate.solved.is_exact else ", not exact"
-    return f"{100 * candidate.coverage:.1f} % covered, {candidate.mean_deviation:.2f} amplitudes{note}"
+    note = f"{candidate.mean_deviation:.2f} amplitudes off"
+    if not candidate.solved.is_sound:
+        note = "not regular" if candidate.solved.is_exact else "not exact"
+    return f"{100 * candidate.coverage:.1f} % covered, {note}"
 
 
 def _draw(axes, candidate: Candidate, surface: ChartedSurface, outline: list[np.ndarray], pixels: float) -> None:

@@ -90,13 +90,15 @@ class GraphSurface:
         gap = gap - np.outer(gap @ up, up)
         x = np.linalg.eigh(gap.T @ gap)[1][:, 2]
         x = unit((x - (x @ up) * up)[None])[0]
+        if ((gap @ x) ** 3).sum() < 0:  # towards the longer tail, so that turned copies get turned frames
+            x = -x
         return np.stack([x, np.cross(up, x), up])
 
     @cached_property
     def domain(self) -> tuple[np.ndarray, np.ndarray]:
         """Lower and upper corner (2,) of the rectangle on which the spline lives."""
         plane = self._plane
-        margin = self.margin * self.diagonal
+        margin = self.margin * self._extent
         return plane[:, :2].min(axis=0) - margin, plane[:, :2].max(axis=0) + margin
 
     @cached_property
@@ -104,6 +106,11 @@ class GraphSurface:
         """Largest distance of a vertex from the surface, to first order."""
         height, slopes, _ = self.heights(self._plane[:, :2])
         return float((np.abs(height - self._plane[:, 2]) / np.sqrt(1 + (slopes**2).sum(axis=0))).max())
+
+    @cached_property
+    def _extent(self) -> float:
+        """Diagonal of the box in the frame of the mean plane, which turns with the mesh."""
+        return float(np.linalg.norm(np.ptp(self._plane, axis=0)))
 
     @cached_property
     def _plane(self) -> np.ndarray:
@@ -120,4 +127,4 @@ class GraphSurface:
         density = len(self._plane) / self._outline.mesh.area
         strength = density * (self.smoothing * self.mesh.edge_length) ** 6
         return smoothing_spline(self._plane[:, :2], self._plane[:, 2], low, high, spacing, strength,
-                                (self.decay * self.diagonal) ** -2)
+                                (self.decay * self._extent) ** -2)

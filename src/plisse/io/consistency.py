@@ -6,7 +6,20 @@ from itertools import pairwise
 import numpy as np
 
 from plisse.errors import InvalidDesign
-from plisse.recipe import Arc, ClosedForm, Curve, Design, Ellipse, Helix, Pattern, Points, Spline, SurfaceDesign, TorusKnot
+from plisse.recipe import (
+    Arc,
+    ClosedForm,
+    ConicCreases,
+    Curve,
+    Design,
+    Ellipse,
+    Helix,
+    Pattern,
+    Points,
+    Spline,
+    SurfaceDesign,
+    TorusKnot,
+)
 
 __all__ = ["check_design", "check_surface_design"]
 
@@ -20,6 +33,10 @@ def check_design(design: Design) -> Design:
         if design.curve is not None or design.pattern is not None:
             raise InvalidDesign("a design has either closed_form or curve and pattern, but this one has both; remove one")
         _check_size("closed_form", design.closed_form)
+        form = design.closed_form
+        if isinstance(form, ConicCreases) and form.growth**form.creases > LARGEST_RATIO:
+            raise InvalidDesign(f"closed_form.growth = {form.growth:g} over {form.creases} creases makes the last one "
+                                f"{form.growth**form.creases:.0e} times as large as the first; lower one of them")
         return design
     if design.curve is None or design.pattern is None:
         section = "curve" if design.curve is None else "pattern"
