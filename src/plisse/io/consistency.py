@@ -43,11 +43,8 @@ def check_design(design: Design) -> Design:
         raise InvalidDesign(f"{section} is missing; add a [{section}] section, as `plisse gallery fig01d` shows")
     _check_size("pattern", design.pattern)
     _check_pattern(design.pattern)
-    table = design.pattern.width
-    if design.curve.closed and isinstance(table, list) and isinstance(table[0], list) and table[0][0] == table[-1][0] - 1 \
-            and table[0][1] != table[-1][1]:
-        raise InvalidDesign(f"pattern.width is {table[0][1]:g} at position 0 and {table[-1][1]:g} at position 1, but on a "
-                            "closed curve these are one place; give one width for both")
+    if design.curve.closed:
+        _check_ring(design.pattern.width)
     if design.curve.closed and design.pattern.samples < 5:
         raise InvalidDesign(f"pattern.samples is {design.pattern.samples}, too few for a closed curve; give at least 5")
     if design.solve.cut is not None and not design.curve.closed:
@@ -147,6 +144,16 @@ def _check_points(curve: Spline | Points) -> None:
     if largest > 1e12 or size < 1e-9 * largest or size < 1e-12:
         raise InvalidDesign(f"curve.points span {size:g} model units at coordinates up to {largest:g}; "
                             "that is lost in rounding, so scale or move the curve")
+
+
+def _check_ring(width: object) -> None:
+    """On closed curves positions 0 and 1 are one place."""
+    if not isinstance(width, list) or not isinstance(width[0], list):
+        return
+    first, last = width[0], width[-1]
+    if last[0] - first[0] == 1 and first[1] != last[1]:
+        raise InvalidDesign(f"pattern.width is {first[1]:g} at position 0 and {last[1]:g} at position 1, but on a closed "
+                            "curve these are one place; give one width for both")
 
 
 def _check_width(width: object, creases: int) -> None:
