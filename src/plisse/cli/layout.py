@@ -159,9 +159,9 @@ def _row(candidate: Candidate) -> tuple[str, ...]:
 
     low, high = np.degrees(_inclinations(candidate))
     status = "exact" if candidate.solved.is_sound else "irregular" if candidate.solved.is_exact else "not exact"
-    return (candidate.layout.label.removeprefix("rows "), status, f"{100 * candidate.coverage:.1f} %", f"{candidate.mean_deviation:.2f}",
-            f"{np.degrees(candidate.least_sector):.0f}°", f"{np.degrees(candidate.least_opening):.0f}°",
-            f"{low:.0f}° to {high:.0f}°")
+    sector, opening = np.degrees([candidate.least_sector, candidate.least_opening])
+    return (candidate.layout.label.removeprefix("rows "), status, f"{100 * candidate.coverage:.1f} %",
+            f"{candidate.mean_deviation:.2f}", f"{sector:.0f}°", f"{opening:.0f}°", f"{low:.0f}° to {high:.0f}°")
 
 
 def _inclinations(candidate: Candidate) -> tuple[float, float]:

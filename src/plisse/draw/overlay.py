@@ -23,7 +23,7 @@ MARGIN, FOOT = 60, 130  # pixels around the picture, and below it for the colour
 TOP_OF_SCALE = (0.5, 1.0, 2.0, 4.0)  # amplitudes, the first that 98 % stay below
 SUN = unit(np.array([-0.5, 0.6, 0.62]))
 GLASS = colours.rgb("#7f9bb0")
-IN_FRONT, ALONE = 0.30, 0.45  # opacity of the reference over the structure, and where there is none
+IN_FRONT, ALONE = 0.22, 0.45  # opacity of the reference over the structure, and where there is none
 UNKNOWN = colours.rgb("#cfc8bb")
 
 
@@ -84,18 +84,16 @@ def _rendered(structure: PleatedStructure, mesh: ReferenceMesh, shares: np.ndarr
 
 def _painted(paper: DepthBuffer, normals: np.ndarray, tint: np.ndarray, face_of: np.ndarray) -> np.ndarray:
     """Pixels (H, W, 4) of faces with unit normals (F, 3) towards any side and colours (F, 3)."""
-    image = np.zeros((*paper.triangle.shape, 4), np.float32)
-    row, column = np.nonzero(paper.triangle >= 0)
-    face = face_of[paper.triangle[row, column]]
-    facing = normals[face] * np.sign(normals[face][:, 2:])
-    field = np.zeros((*paper.triangle.shape, 3), np.float32)
-    field[..., 2] = 1
-    field[row, column] = facing
+    facing = (normals * np.sign(normals[:, 2:])).astype(np.float32)
+    colour = (tint * (0.62 + 0.42 * np.clip(facing @ SUN, 0, 1))[:, None]).astype(np.float32)
     step = 2 * OVERSAMPLE
-    sky = occlusion(paper.depth[::step, ::step] / step, field[::step, ::step], 0.03 * max(paper.depth.shape) / step)
-    open_ = sky.repeat(step, axis=0).repeat(step, axis=1)[row, column]
-    light = (0.62 + 0.42 * np.clip(facing @ SUN, 0, 1)) * (0.7 + 0.3 * open_)
-    image[row, column, :3] = np.clip(tint[face] * light[:, None], 0, 1)
+    coarse = paper.triangle[::step, ::step]
+    towards = np.where(coarse[..., None] >= 0, facing[face_of[coarse]], np.array([0, 0, 1], np.float32))
+    sky = occlusion(paper.depth[::step, ::step] / step, towards, 0.03 * max(coarse.shape))
+    row, column = np.nonzero(paper.triangle >= 0)
+    open_ = (0.7 + 0.3 * sky).astype(np.float32)[row // step, column // step]
+    image = np.zeros((*paper.triangle.shape, 4), np.float32)
+    image[row, column, :3] = np.minimum(colour[face_of[paper.triangle[row, column]]] * open_[:, None], 1)
     image[row, column, 3] = 1
     return image
 
@@ -103,9 +101,9 @@ def _painted(paper: DepthBuffer, normals: np.ndarray, tint: np.ndarray, face_of:
 def _glaze(image: np.ndarray, paper: DepthBuffer, pane: DepthBuffer, normals: np.ndarray) -> None:
     """Lay the reference over the pixels that it is in front of."""
     row, column = np.nonzero((pane.triangle >= 0) & (pane.depth > paper.depth))
-    facing = normals[pane.triangle[row, column]]
-    facing = facing * np.sign(facing[:, 2:])
-    colour = np.clip(GLASS * (0.72 + 0.45 * np.clip(facing @ SUN, 0, 1))[:, None], 0, 1)
+    facing = normals * np.sign(normals[:, 2:])
+    tones = np.clip(GLASS * (0.72 + 0.45 * np.clip(facing @ SUN, 0, 1))[:, None], 0, 1).astype(np.float32)
+    colour = tones[pane.triangle[row, column]]
     below = image[row, column]
     share = np.where(below[:, 3] > 0, IN_FRONT, ALONE)[:, None]
     image[row, column, :3] = np.where(below[:, 3:] > 0, (1 - share) * below[:, :3] + share * colour, colour)

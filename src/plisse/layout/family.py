@@ -83,21 +83,45 @@ def boundary_guide(surface: Surface, mesh: ReferenceMesh, loop: int = 0) -> Guid
 
 def section_guide(surface: Surface, mesh: ReferenceMesh, point, normal) -> Guide:
     """The curve in which a plane cuts the mesh; of several the one nearest to `point`. It runs along n × normal."""
-    from trimesh import Trimesh
-    from trimesh.graph import connected_components  # noqa: F401  (trimesh needs its graph module for sections)
-
-    point, normal = np.asarray(point, dtype=float), unit(np.asarray(normal, dtype=float)[None])[0]
-    section = Trimesh(mesh.vertices, mesh.triangles, process=False).section(normal, point)
-    if section is None:
+    point, normal = np.asarray(point, dtype=float), unit(np.asarray(normal, dtype=float))
+    lines = _sections(mesh, (mesh.vertices - point) @ normal)
+    if not lines:
         raise InvalidDesign("the plane of the guide does not meet the surface")
-    lines = section.discrete
-    line = np.asarray(min(lines, key=lambda candidate: norm(candidate - point).min()))
-    closed = bool(norm(line[0] - line[-1]) < 1e-6 * mesh.diagonal)
-    guide = _onto(surface, line[:-1] if closed else line, closed)
+    line, closed = min(lines, key=lambda candidate: norm(candidate[0] - point).min())
+    guide = _onto(surface, line, closed)
     middle = len(guide.points) // 2
     tangent = guide.points[middle + 1] - guide.points[middle - 1]
     wanted = np.cross(surface.project(guide.points[middle:middle + 1]).normals[0], normal)
     return guide if tangent @ wanted > 0 else guide.reversed()
+
+
+def _sections(mesh: ReferenceMesh, height: np.ndarray) -> list[tuple[np.ndarray, bool]]:
+    """Polylines (K, 3) on which heights (V,) over the mesh vanish, and whether they are closed."""
+    above = height >= 0
+    start, end = mesh.half_edges.T
+    fraction = height[start] / np.where(above[start] == above[end], np.nan, height[start] - height[end])
+    points = mesh.vertices[start] + fraction[:, None] * (mesh.vertices[end] - mesh.vertices[start])
+    crossed = np.flatnonzero(np.isfinite(fraction)).reshape(-1, 2)  # half-edges 3f + k: two in every face that is cut
+    rising = ~above[start[crossed[:, 0]]]
+    enter = np.where(rising, crossed[:, 1], crossed[:, 0])
+    leave = np.where(rising, crossed[:, 0], crossed[:, 1])
+    following = dict(zip(enter.tolist(), leave.tolist(), strict=True))
+    entered = {int(mesh.twins[edge]) for edge in leave}
+    lines = []
+    for first in sorted(following, key=lambda edge: edge in entered):  # open lines begin where nothing leads
+        if first not in following:
+            continue
+        edge, chain = first, [first]
+        while edge in following:
+            exit_ = following.pop(edge)
+            chain.append(exit_)
+            edge = int(mesh.twins[exit_])
+        closed = edge == first
+        line = points[chain[:-1] if closed else chain]
+        apart = np.concatenate([[True], norm(np.diff(line, axis=0)) > 1e-9 * mesh.diagonal])
+        if apart.sum() > 3:
+            lines.append((line[apart], closed))
+    return lines
 
 
 def _onto(surface: Surface, points: np.ndarray, closed: bool) -> Guide:
@@ -191,20 +215,26 @@ def shoot(surface: Surface, guide: Guide, *, theta: float, width: float, amplitu
     at = surface.project(starts)
     along = unit(tangents - dot(tangents, at.normals)[:, None] * at.normals)
     across = np.cross(at.normals, along)
-    length = surface.diagonal if length is None else length
+    length = 2 * surface.diagonal if length is None else length
     step = surface.diagonal / 150 if step is None else step
 
     def traced(turns: np.ndarray, step: float = 2 * step) -> tuple[Trace, ...]:
         c, s = np.cos(angle + turns)[:, None], np.sin(angle + turns)[:, None]
-        return trace(surface, at.positions, c * along + s * across, theta, length=length, step=step, both=not guide.one_sided,
-                     beyond=beyond)
+        curves = trace(surface, at.positions, c * along + s * across, theta, length=length, step=step,
+                       both=not guide.one_sided, beyond=beyond)
+        for index, curve in enumerate(curves):
+            if len(curve.points) < 3:
+                raise Infeasible(f"curve {index + 1} of {len(curves)} ends at the guide ({curve.stop}): change theta, or "
+                                 "cross the surface with another guide")
+        return curves
 
     turns = _tuned(traced, len(starts), spacing, guide.closed) if tuned else np.zeros(len(starts))
     return Family(traced(turns, step), theta, spacing, guide.closed, turns)
 
 
 def fan(surface: Surface, point, *, theta: float, creases: int, radius: float, sector: tuple[float, float] | None = None,
-        towards=None, side: float = 1.0, length: float | None = None, step: float | None = None, beyond: bool = False) -> Family:
+        towards=None, side: float = 1.0, length: float | None = None, step: float | None = None,
+        beyond: bool = False) -> Family:
     """Curves of inclination theta (radians) that leave a point in all directions, or in those of a sector (radians).
 
     Angles are counted about the normal from the direction `towards`. Pleats lean clockwise, seen from above, for the
@@ -222,7 +252,7 @@ def fan(surface: Surface, point, *, theta: float, creases: int, radius: float, s
     angle = angle if side < 0 else angle[::-1]
     directions = np.cos(angle)[:, None] * x + np.sin(angle)[:, None] * np.cross(normal, x)
     curves = trace(surface, np.repeat(at.positions, creases, axis=0), directions, theta, side, both=False,
-                   length=surface.diagonal if length is None else length,
+                   length=2 * surface.diagonal if length is None else length,
                    step=radius / 40 if step is None else step, beyond=beyond)
     strips = creases if sector is None else creases - 1
     spacing = np.full(strips, radius * (high - low) / strips)
@@ -282,7 +312,7 @@ def _gaps(curves: tuple[Trace, ...], spacing: np.ndarray, closed: bool) -> np.nd
     splines = [_spline(curve, False) for curve in curves]
     low = float(np.median([spline.x[0] for spline in splines]))
     high = float(np.median([spline.x[-1] for spline in splines]))
-    at = np.linspace(low, high, PROBES)
+    at = 0.99 * np.linspace(low, high, PROBES)
     points, tangents = np.empty((len(curves), PROBES, 3)), np.empty((len(curves), PROBES, 3))
     for index, spline in enumerate(splines):
         points[index], tangents[index] = spline(at), unit(spline(at, 1))

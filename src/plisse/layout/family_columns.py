@@ -12,15 +12,15 @@ from plisse.errors import Infeasible, InvalidDesign
 from plisse.geometry.mesh import ReferenceMesh
 from plisse.geometry.surface import Surface
 from plisse.geometry.vectors import dot, norm, unit
-from plisse.layout.family import Family, Guide, boundary_guide, guide_through, shoot
+from plisse.layout.family import Family, Guide, boundary_guide, fan, guide_through, shoot
 from plisse.layout.stops import Stop
 from plisse.structure.pattern import Pattern, interpolate_along
 
-__all__ = ["guided_pattern", "pattern_of", "trajectories"]
+__all__ = ["fan_pattern", "guided_pattern", "pattern_of", "trajectories"]
 
 PROBES = 160  # trajectories by which the usable rectangle is found
 GAPS = (0.35, 2.9)  # usable gaps, relative to the width of the strip at the guide
-SHORTEST = 2.0  # mean widths that creases must be long
+SHORTEST = 1.5  # mean widths that creases must be long
 NEWTON_STEPS = 6
 CLOSING_STEPS = 12
 
@@ -36,12 +36,12 @@ class Crossing:
     points: np.ndarray
     gaps: np.ndarray
 
-    def usable(self, family: Family) -> np.ndarray:
-        """Mask (strips, n − 1 or n) of the cells whose corners exist, in order, with gaps near the nominal ones."""
+    def usable(self, family: Family, limits: tuple[float, float]) -> np.ndarray:
+        """Mask (strips, n − 1 or n) of the cells whose corners exist, in order, with gaps within limits of nominal."""
         count = len(family.curves)
         relative = self.gaps / family.spacing[:, None]
         with np.errstate(invalid="ignore"):
-            good = (relative > GAPS[0]) & (relative < GAPS[1])
+            good = (relative > limits[0]) & (relative < limits[1])
             steps = np.diff(self.at, axis=1)
             rising = steps > 0.1 * np.nanmedian(steps)
         following = (np.arange(len(good)) + 1) % count
@@ -64,14 +64,16 @@ def trajectories(family: Family, start: int, at: np.ndarray) -> Crossing:
     return _crossing(family, np.stack([rows[row] for row in range(count)]))
 
 
-def pattern_of(family: Family, surface: Surface, amplitude: float, samples: int, *, crop: bool = True) -> Pattern:
+def pattern_of(family: Family, surface: Surface, amplitude: float, samples: int, *, crop: bool = True,
+               gaps: tuple[float, float] = GAPS) -> Pattern:
     """Curves with offset directions cos θ n + sin θ m on the largest usable rectangle of a family.
 
-    Without `crop` all curves must be used, and only the columns are chosen. Curves are shifted across themselves where
-    local gaps differ from those at the guide, so that strips mirror in their creases everywhere (Fig. 11).
+    Without `crop` all curves must be used, and only the columns are chosen. `gaps` are the smallest and the largest
+    usable distance between curves, relative to the width of their strip at the guide. Curves are shifted across
+    themselves where local gaps differ from those at the guide, so that strips mirror in their creases everywhere.
     Raises Infeasible where too little of the family is usable.
     """
-    rows, start, window = _rectangle(family, crop)
+    rows, start, window = _rectangle(family, crop, gaps)
     closed_curves = family.closed_curves
     part = Family(family.curves[rows], family.theta,
                   family.spacing if family.closed else family.spacing[rows.start:rows.stop - 1], family.closed,
@@ -85,9 +87,8 @@ def pattern_of(family: Family, surface: Surface, amplitude: float, samples: int,
     points, normals = (field.reshape(crossing.points.shape) for field in (shifted.positions, shifted.normals))
     across = family.side * _across(points, shifted.normals, closed_curves)
     binormals = np.cos(family.theta) * normals + np.sin(family.theta) * across
-    if rows.start % 2:  # the first crease always lies below: read the family from its other end
-        points, binormals = points[::-1, ::-1], -binormals[::-1, ::-1]
-        points, binormals = np.ascontiguousarray(points), np.ascontiguousarray(binormals)
+    if rows.start % 2:  # the first crease of a pattern lies below, this one above: turn the pattern upside down
+        binormals = -binormals
     following = np.roll(points, -1, axis=0) if family.closed else points[1:]
     widths = norm(following - points[:len(following)])
     return Pattern(points, binormals, np.full(len(points), family.theta), widths, closed_curves, family.closed)
@@ -103,18 +104,38 @@ def guided_pattern(surface: Surface, mesh: ReferenceMesh | None, guide, *, theta
     closes; "boundary" is the longest boundary loop of the mesh. The number of creases is kept when it is given,
     otherwise the largest usable rectangle decides. Raises Infeasible, saying where, if the family falls into disarray.
     """
-    if not 0 < theta < 90:
-        raise InvalidDesign(f"pattern.theta is {theta:g}; creases guided on a surface need an inclination above 0 and "
-                            "below 90 degrees")
+    theta = _checked(theta)
     if isinstance(guide, str):
         if guide != "boundary" or mesh is None:
             raise InvalidDesign("a guide is a list of points, or \"boundary\" on a surface that is a mesh")
         guide = boundary_guide(surface, mesh)
     elif not isinstance(guide, Guide):
         guide = guide_through(surface, guide, closed_family)
-    family = shoot(surface, guide, theta=np.radians(theta), width=width, amplitude=amplitude, creases=creases,
+    family = shoot(surface, guide, theta=theta, width=width, amplitude=amplitude, creases=creases,
                    angle=np.radians(angle), tuned=tuned, length=length, beyond=beyond)
     return pattern_of(family, surface, amplitude, samples, crop=creases is None)
+
+
+def fan_pattern(surface: Surface, point, *, theta: float, amplitude: float, creases: int, radius: float,
+                samples: int = 60, sector: tuple[float, float] | None = None, towards=None, side: float = 1.0,
+                length: float | None = None, gaps: tuple[float, float] = GAPS, beyond: bool = False) -> Pattern:
+    """The pattern of pseudo-geodesics of inclination `theta` (degrees) that leave a point (see `fan`).
+
+    A full fan is a closed family; a `sector` (degrees) is open. It begins and ends where the creases are gaps[0] and
+    gaps[1] times as far apart as on a flat disk of the given radius.
+    """
+    angles = None if sector is None else (float(np.radians(sector[0])), float(np.radians(sector[1])))
+    family = fan(surface, point, theta=_checked(theta), creases=creases, radius=radius, sector=angles, towards=towards,
+                 side=side, length=length, beyond=beyond)
+    return pattern_of(family, surface, amplitude, samples, crop=False, gaps=gaps)
+
+
+def _checked(theta: float) -> float:
+    """Inclination in radians."""
+    if not 0 < theta < 90:
+        raise InvalidDesign(f"pattern.theta is {theta:g}; creases guided on a surface need an inclination above 0 and "
+                            "below 90 degrees")
+    return float(np.radians(theta))
 
 
 def _across(points: np.ndarray, normals: np.ndarray, closed: bool) -> np.ndarray:
@@ -195,32 +216,25 @@ def _opposite(family: Family, row: int, following: int, at: np.ndarray) -> np.nd
         return np.where((found >= low - slack) & (found <= high + slack), found, np.nan)
 
 
-def _rectangle(family: Family, crop: bool) -> tuple[slice, int, tuple[float, float]]:
+def _rectangle(family: Family, crop: bool, gaps: tuple[float, float]) -> tuple[slice, int, tuple[float, float]]:
     """Curves of the largest usable rectangle, the curve where its columns start, and their range on it."""
-    count = len(family.curves)
-    ranges = family.ranges
-    found: tuple[float, slice, int, tuple[float, float]] | None = None
-    order = np.argsort(np.ptp(ranges, axis=1))
-    starts = {0} if family.closed else {count // 2, count // 4, (3 * count) // 4, int(order[0])}
-    for start in sorted(starts):
-        at = np.linspace(*ranges[start], PROBES, endpoint=not family.closed_curves)
+    count, ranges = len(family.curves), family.ranges
+    whole = family.closed or not crop
+    shortest = int(np.argmin(np.ptp(ranges, axis=1)))
+    best, found = 0.0, None
+    for start in [0] if family.closed else sorted({count // 2, count // 4, (3 * count) // 4, shortest}):
+        at = np.linspace(ranges[start, 0], ranges[start, 1], PROBES, endpoint=not family.closed_curves)
         crossing = trajectories(family, start, at)
-        usable = crossing.usable(family)
-        whole = family.closed or family.closed_curves or not crop
-        top, bottom, left, right = _largest(usable, crossing.gaps, start, not crop or family.closed,
+        top, bottom, left, right = _largest(crossing.usable(family, gaps), crossing.gaps, start, whole,
                                             family.closed_curves)
-        if bottom <= top or right <= left:
-            continue
-        size = float(np.nansum(crossing.gaps[top:bottom, left:right])) * float(at[1] - at[0])
-        window = (float(at[0]), float(at[0] + np.ptp(ranges[start]))) if family.closed_curves else (
-            float(at[left]), float(at[right]))
-        rows = slice(0, count) if family.closed or (whole and not crop) else slice(top, bottom + 1)
-        if found is None or size > found[0]:
-            found = size, rows, start, window
-    mean = float(family.spacing.mean())
-    if found is None or found[3][1] - found[3][0] < SHORTEST * mean:
-        raise Infeasible(_disarray(family))
-    return found[1], found[2], found[3]
+        area = float(np.nansum(crossing.gaps[top:bottom, left:right])) * float(at[1] - at[0])
+        if area > best:
+            window = ranges[start] if family.closed_curves else at[[left, right]]
+            best, found = area, (slice(0, count) if whole else slice(top, bottom + 1), start, window)
+    if found is None or np.ptp(found[2]) < SHORTEST * family.spacing.mean():
+        raise Infeasible(_disarray(family, gaps))
+    rows, start, window = found
+    return rows, start, (float(window[0]), float(window[1]))
 
 
 def _largest(usable: np.ndarray, gaps: np.ndarray, start: int, all_rows: bool,
@@ -232,7 +246,7 @@ def _largest(usable: np.ndarray, gaps: np.ndarray, start: int, all_rows: bool,
     strips, columns = usable.shape
     height = np.where(usable, np.nan_to_num(gaps[:, :columns]), 0.0)
     best, found = 0.0, (0, 0, 0, 0)
-    tops = [0] if all_rows else range(0, strips)
+    tops = [0] if all_rows else range(strips)
     for top in tops:
         alive = np.ones(columns, dtype=bool)
         depth = np.zeros(columns)
@@ -253,7 +267,7 @@ def _largest(usable: np.ndarray, gaps: np.ndarray, start: int, all_rows: bool,
     return found
 
 
-def _disarray(family: Family) -> str:
+def _disarray(family: Family, limits: tuple[float, float]) -> str:
     """What is wrong with a family that has no usable rectangle."""
     count = len(family.curves)
     lean = f"theta ({np.degrees(family.theta):.3g}°)"
@@ -264,14 +278,14 @@ def _disarray(family: Family) -> str:
         return (f"curve {index + 1} of {count} curls up within {reach:.4g} of the guide: raise {lean} towards 90, or "
                 "cross the surface with another guide")
     start = count // 2
-    crossing = trajectories(family, start, np.linspace(*family.ranges[start], PROBES))
+    crossing = trajectories(family, start, np.linspace(family.ranges[start, 0], family.ranges[start, 1], PROBES))
     relative = crossing.gaps / family.spacing[:, None]
     middle = int(np.argmin(np.abs(crossing.at[start])))
     for offset in range(PROBES):
         for column in {max(middle - offset, 0), min(middle + offset, PROBES - 1)}:
             gaps = relative[:, column]
-            if (gaps <= GAPS[0]).any() or (gaps >= GAPS[1]).any():
-                narrow = bool((gaps <= GAPS[0]).any())
+            if (gaps <= limits[0]).any() or (gaps >= limits[1]).any():
+                narrow = bool((gaps <= limits[0]).any())
                 strip = int(np.nanargmin(gaps) if narrow else np.nanargmax(gaps))
                 where = abs(float(crossing.at[start, column]))
                 what = "run together and would cross" if narrow else "run apart"

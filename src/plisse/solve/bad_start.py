@@ -83,12 +83,12 @@ class BadStart:
         """One sentence with numbers."""
         degrees = np.degrees(self.angles)
         before, after = self.straightness
-        return (f"the start moves evenly spaced curves along surface normals, and its bisectors make {degrees.mean():.0f}° on "
-                f"average (from {degrees.min():.0f}° to {degrees.max():.0f}°) with the osculating planes of the creases "
-                f"where folds need 90°: enforcing planarity and developability straightens the creases to "
-                f"{100 * after / before:.0f} % of their bow, {self.departure(self.straightened):.1f} amplitudes off the "
-                f"surface, and holding them leaves angle defects of {self.defects(self.held)[1]:.2g}; leave out "
-                'initial = "normal"')
+        away = self.departure(self.straightened)
+        return ("the start moves evenly spaced curves along surface normals, and the bisectors of its zigzag make "
+                f"{degrees.mean():.0f}° on average (from {degrees.min():.0f}° to {degrees.max():.0f}°) with the osculating "
+                f"planes of the creases where folds need 90°: enforcing planarity and developability leaves creases with "
+                f"{100 * after / before:.0f} % of their bow, {away:.1f} amplitudes off the surface on average, and holding "
+                f'them leaves angle defects of {self.defects(self.held)[1]:.2g}; leave out initial = "normal"')
 
 
 def normals_over(curves: np.ndarray, closed: bool = False) -> np.ndarray:

@@ -46,9 +46,9 @@ def edited_structure(structure: PleatedStructure, rest_moved: np.ndarray, *, nor
                      hold: float = HOLD, least_opening: float = OPENING_RANGE[0]) -> Edited:
     """The exact structure nearest in shape to a solved one carried along to vertices `rest_moved` (V, 3).
 
-    With the `normals` (V, 3) of the edited surface its mid-surface is held along them by `hold`, where that can be. The whole motion is
-    tried at once, smaller steps where that leads to nothing exact and regular with creases open by `least_opening`
-    radians and folded as they were. Raises Infeasible, with how far the edit could be followed.
+    With the `normals` (V, 3) of the edited surface its mid-surface is held along them by `hold`, where that can be. The
+    whole motion is tried at once, smaller steps where that leads to nothing exact and regular with creases open by
+    `least_opening` radians and folded as they were. Raises Infeasible, with how far the edit could be followed.
     """
     task = _Task(structure, np.asarray(rest_moved, float), normals, hold, least_opening)
     done, size = 0.0, 1.0
