@@ -8,10 +8,13 @@ import numpy as np
 
 from plisse.assess import assess, overlap_notes, start_defects
 from plisse.errors import Infeasible
+from plisse.geometry.graph import GraphSurface
+from plisse.geometry.mesh import ReferenceMesh
+from plisse.geometry.surface import Surface
 from plisse.io.designs import design_from_dict, read_design
 from plisse.layout.guiding import Guiding, guiding
 from plisse.recipe import Design, SurfaceDesign
-from plisse.reconstruction import deviation_of, inclinations_of, reference_surface
+from plisse.reconstruction import deviation_of, guided_start, inclinations_of, lies_over, reference_surface
 from plisse.result import Report, Result
 from plisse.solve.attempt import Start
 from plisse.solve.closed_form import closed_form
@@ -60,8 +63,13 @@ def _over_surface(recipe: SurfaceDesign, watch: Stopwatch) -> Result:
     """The reconstruction of a surface: layouts of fitted inclination, the best of those that become exact (§3.1)."""
     watch.start("surface", 0.0)
     mesh, surface = reference_surface(recipe.surface)
-    pattern = recipe.pattern
     watch.start("solve", 0.1)
+    if recipe.surface.guide is not None or recipe.surface.fan is not None:
+        return _along_a_guide(recipe, mesh, surface, watch)
+    if not isinstance(surface, GraphSurface):
+        return _broken_down(recipe, ["the surface is no graph over its mean plane, so rows cannot be laid over the whole of "
+                                     "it; give surface.guide or surface.fan"], watch)
+    pattern = recipe.pattern
     try:
         found = whole_surface(
             mesh, surface, width=pattern.width, amplitude=pattern.amplitude, overhang=recipe.surface.overhang,
@@ -77,6 +85,28 @@ def _over_surface(recipe: SurfaceDesign, watch: Stopwatch) -> Result:
         report, seconds=watch.stop(), design=recipe.to_dict(), method="fitted inclination", coverage=found.coverage,
         deviation=deviation_of(found, mesh.diagonal), inclination_deg=inclinations_of(found), warnings=list(found.notes))
     return Result(recipe, report, structure=structure)
+
+
+def _along_a_guide(recipe: SurfaceDesign, mesh: ReferenceMesh, surface: Surface, watch: Stopwatch) -> Result:
+    """Creases of constant inclination, shot from a guide or around a point (Figs 2, 12, 20)."""
+    try:
+        start = guided_start(recipe.surface, recipe.pattern, mesh, surface)
+    except Infeasible as error:
+        return _broken_down(recipe, [str(error)], watch)
+    best = (outcome := solve([(start, SECOND_CHANCE)])).best
+    if best.attempt.vertices is None:
+        return _broken_down(recipe, [best.attempt.message], watch)
+    watch.start("flatten", 0.8)
+    structure = PleatedStructure(start.topology, best.attempt.vertices)
+    structure = flatten(structure, best_cut(structure))
+    watch.start("measure", 0.9)
+    report = assess(structure, guides=start.guides(start.samples), amplitude=start.amplitude, units=recipe.units)
+    coverage, deviation = lies_over(structure, mesh, surface, start.amplitude)
+    report = msgspec.structs.replace(
+        report, seconds=watch.stop(), design=recipe.to_dict(), method=best.attempt.method,
+        iterations=best.attempt.iterations, history=[float(value) for value in best.attempt.history],
+        tried=_said_of(outcome), coverage=coverage, deviation=deviation, warnings=overlap_notes(report))
+    return Result(recipe, report, start.pattern, zigzag(start.pattern, start.amplitude), structure)
 
 
 def _by_formula(recipe: Design, watch: Stopwatch) -> Result:

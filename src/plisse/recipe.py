@@ -173,29 +173,44 @@ class Design(_Strict, kw_only=True, frozen=True):
 
 
 class Surface(_Strict, kw_only=True, frozen=True):
-    """A reference surface: a mesh file, or a height z(x, y) over a rectangle; layouts are found automatically.
+    """A reference surface: a mesh file, a height z(x, y) over a rectangle, a radius r(x) about the z axis for x = z
+    over the range `x`, or a torus [R, r].
 
-    `centre` names the point of the surface around which rows are laid. Without `overhang` inclinations are fitted below
-    45° and creases open by 15° at least; where faces overhang all the same the report says how many.
+    With `guide` (points joined on the surface) or `fan` (a point) creases are pseudo-geodesics of constant inclination;
+    otherwise rows are laid out over the whole surface, around `centre` where it is given, and inclinations are fitted.
+    Without `overhang` these stay below 45° when they are fitted and creases open by 15° at least; where faces overhang
+    all the same the report says how many.
     """
 
     file: str | None = None
     height: str | None = None
+    radius: str | None = None
+    torus: tuple[Length, Length] | None = None
     x: Range = (-100.0, 100.0)
     y: Range = (-100.0, 100.0)
     centre: Point | None = None
     overhang: bool = False
+    guide: Annotated[list[Point], Meta(min_length=2, description="two or more points [x, y, z]")] | None = None
+    guide_closed: bool = False
+    fan: Point | None = None
+    fan_radius: Length | None = None
+    reach: Length | None = None
+    beyond: bool = False
+    tuned: bool = True
 
 
 class SurfacePattern(_Strict, kw_only=True, frozen=True):
     """What may be asked of the pleats over a surface; everything else follows from its size and curvature.
 
-    `theta` is a preference: inclinations are fitted, and the report gives them along every crease.
+    Along a guide `theta` is kept, and `width` and `amplitude` are needed; over a whole surface `theta` is a preference,
+    and the report gives the inclinations along every crease.
     """
 
     theta: Inclination | None = None
     width: Length | None = None
     amplitude: Length | None = None
+    creases: Annotated[int, Meta(ge=3, le=1000, description="a whole number from 3 to 1000")] | None = None
+    samples: Annotated[int, Meta(ge=5, le=20_000, description="a whole number from 5 to 20000")] = 60
 
 
 class SurfaceDesign(_Strict, kw_only=True, frozen=True):

@@ -58,10 +58,21 @@ def check_design(design: Design) -> Design:
 
 def check_surface_design(design: SurfaceDesign) -> SurfaceDesign:
     """The same design; raises InvalidDesign unless it names one surface."""
-    surface = design.surface
-    if (surface.file is None) == (surface.height is None):
-        both = "both surface.file and surface.height" if surface.file else "neither surface.file nor surface.height"
-        raise InvalidDesign(f"a surface is a mesh file or a height z(x, y), but {both} is given; give one of them")
+    surface, pattern = design.surface, design.pattern
+    given = [name for name in ("file", "height", "radius", "torus") if getattr(surface, name) is not None]
+    if len(given) != 1:
+        found = "both " + " and ".join(f"surface.{name}" for name in given) if given else \
+            "neither surface.file nor surface.height nor another kind"
+        raise InvalidDesign(f"a surface is one of file, height, radius, torus, but {found} is given; give one of them")
+    if surface.guide is not None and surface.fan is not None:
+        raise InvalidDesign("surface.guide and surface.fan are both given; creases start from one of them")
+    needed = {"guide": ("theta", "width", "amplitude"), "fan": ("theta", "amplitude", "creases")}
+    for kind, names in needed.items():
+        for name in names:
+            if getattr(surface, kind) is not None and getattr(pattern, name) is None:
+                raise InvalidDesign(f"pattern.{name} is missing; a layout along surface.{kind} needs it")
+    if surface.fan is not None and surface.fan_radius is None:
+        raise InvalidDesign("surface.fan_radius is missing; say how far from surface.fan the creases begin")
     for name, (low, high) in (("x", surface.x), ("y", surface.y)):
         if not low < high:
             raise InvalidDesign(f"surface.{name} is [{low:g}, {high:g}]; give two rising numbers")
