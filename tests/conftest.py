@@ -1,5 +1,10 @@
 """Structures that are exact by formula, for every test that needs one."""
 
+import os
+
+for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
+    os.environ.setdefault(name, "1")  # one thread per worker, before numpy is imported
+
 import numpy as np
 import pytest
 

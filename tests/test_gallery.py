@@ -16,7 +16,7 @@ NAMES = sorted(entry.name.removesuffix(".toml") for entry in GALLERY.iterdir() i
 # creases × vertices along a crease; open F = (m−1)(n−1), closed creases F = (m−1) n
 SIZES = {"fig01a": (9, 76, False), "fig01c": (19, 102, False), "fig01d": (12, 242, False), "fig09": (19, 40, True),
          "fig10": (3, 3, False), "fig16": (17, 100, True), "fig19": (17, 400, True), "fig24a": (16, 200, True),
-         "fig24b": (7, 240, True), "fig27": (11, 200, False)}
+         "fig24b": (7, 240, True), "fig27": (11, 200, False), "fig02": (50, 72, False), "fig20c": (60, 49, False)}
 PRINCIPAL = {"fig01a", "fig01c", "fig01d", "fig05", "fig09", "fig10", "fig26", "fig27"}
 
 
@@ -59,6 +59,26 @@ def test_designs_have_the_sizes_of_figure_21(name, results):
     report = results(name).report
     assert report.vertices == creases * samples
     assert report.faces == (creases - 1) * (samples - (not closed))
+
+
+CLOSED_FAMILIES = {"fig12": (60, 60), "fig20a": (60, 40), "fig20b": (80, 60)}
+SURFACES = [*CLOSED_FAMILIES, "fig02", "fig13", "fig20c"]
+
+
+@pytest.mark.parametrize("name", CLOSED_FAMILIES)
+def test_closed_families_have_the_sizes_of_figure_21(name, results):
+    creases, samples = CLOSED_FAMILIES[name]
+    report = results(name).report
+    assert report.vertices == creases * samples
+    assert report.faces == creases * (samples - 1)
+
+
+@pytest.mark.parametrize("name", SURFACES)
+def test_reconstructions_stay_near_their_surface_and_report_it(name, results):
+    report = results(name).report
+    assert report.deviation.mean_amplitudes < 0.3
+    assert 0.2 < report.coverage <= 1
+    assert report.crease_deviation.max < 2.5
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -46,6 +46,7 @@ def layout(
     from plisse.cli.console import progress
     from plisse.draw.candidates import write_candidates
     from plisse.errors import PlisseError
+    from plisse.geometry.graph import GraphSurface
     from plisse.io.atomic import require_writable, written_together
     from plisse.reconstruction import reference_surface
     from plisse.solve.whole_surface import whole_surface
@@ -58,6 +59,9 @@ def layout(
         raise PlisseError(f"{directory / 'layout.toml'} exists already; remove it or choose another directory with -o")
     require_writable(directory)
     mesh, surface = reference_surface(recipe.surface)
+    if not isinstance(surface, GraphSurface):
+        raise PlisseError(f"{file} has a guide, a fan, or a surface that is no graph over its mean plane, so layouts are not "
+                          "searched for; run plisse make")
     pattern = recipe.pattern
     with progress(quiet) as advance:
         found = whole_surface(
