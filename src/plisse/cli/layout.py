@@ -60,8 +60,8 @@ def layout(
     require_writable(directory)
     mesh, surface = reference_surface(recipe.surface)
     if not isinstance(surface, GraphSurface):
-        raise PlisseError(f"{file} has a guide, a fan, or a surface that is no graph over its mean plane, so layouts are not "
-                          "searched for; run plisse make")
+        raise PlisseError(f"{file} has a guide, a fan, or a surface that is no graph over its mean plane, so layouts are "
+                          "not searched for; run plisse make")
     pattern = recipe.pattern
     with progress(quiet) as advance:
         found = whole_surface(

@@ -51,13 +51,13 @@ def write_candidates(candidates: Sequence[Candidate], chosen: int, mesh: Referen
         axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), xticks=[], yticks=[])
         axes.set_aspect("equal", adjustable="datalim")
         axes.spines[:].set(color=CHOSEN if k == chosen else colours.RULING, linewidth=2.0 if k == chosen else 0.4)
-        axes.set_title(f"{k + 1}   {_said(candidate)}", fontsize=7.5, loc="left", pad=4,
+        axes.set_title(f"{k + 1}   {_said(candidate)}", fontsize=7, loc="left", pad=4,
                        color=CHOSEN if k == chosen else colours.INK)
     canvas.print_png(str(path), metadata={"Software": None})
 
 
 def _said(candidate: Candidate) -> str:
-    note = f"{candidate.mean_deviation:.2f} amplitudes off"
+    note = f"{candidate.mean_deviation:.2f} amplitudes"
     if not candidate.solved.is_sound:
         note = "not regular" if candidate.solved.is_exact else "not exact"
     return f"{100 * candidate.coverage:.1f} % covered, {note}"
