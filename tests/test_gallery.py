@@ -37,7 +37,7 @@ def test_the_designs_of_the_figures_are_all_there():
     assert wanted <= set(NAMES)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [name for name in NAMES if name != "fig25"])
 def test_every_design_is_exact_and_regular(name, results):
     report = results(name).report
     assert report.status == "exact", report.reasons
@@ -97,6 +97,21 @@ def test_developments_wind_over_themselves_as_in_the_paper(name, results):
     width, height = sheet.size_mm
     assert 0 <= sheet.overlap_at_mm[0] <= width
     assert 0 <= sheet.overlap_at_mm[1] <= height
+
+
+def test_fig23_follows_its_surface_with_varying_inclination(results):
+    report = results("fig23").report
+    assert report.coverage > 0.98
+    assert report.deviation.mean_amplitudes < 0.3
+    assert max(entry.max - entry.min for entry in report.inclination_deg) > 20
+
+
+def test_fig25_fails_in_both_ways_and_says_why(results):
+    report = results("fig25").report
+    assert report.status == "approximate"
+    assert "bisectors" in report.reasons[0]
+    assert len(report.tried) == 2
+    assert report.angle_defect.max > 1e-2
 
 
 def test_creases_of_fig05_develop_into_ellipses(results):

@@ -83,3 +83,36 @@ def test_the_mesh_is_found_relative_to_the_design(tmp_path):
     (tmp_path / "a.toml").write_text('[surface]\nfile = "mesh/roof.obj"\n')
     assert read_design(tmp_path / "a.toml").surface.file == str(tmp_path / "mesh" / "roof.obj")
     assert design_from_dict({"surface": {"file": "roof.obj"}}).surface.file == "roof.obj"
+
+
+def test_an_edited_file_with_the_same_faces_is_followed(tmp_path, roof):
+    mesh = HeightField(HEIGHT["surface"]["height"], (-100, 100), (-70, 70)).mesh(60)
+    lifted = mesh.vertices + np.array([0, 0, 8.0]) * np.exp(-(mesh.vertices[:, :1] ** 2 + mesh.vertices[:, 1:2] ** 2) / 3000)
+    for name, vertices in (("a.obj", mesh.vertices), ("b.obj", lifted)):
+        trimesh.Trimesh(vertices, mesh.triangles, process=False).export(tmp_path / name)
+    trimesh.Trimesh(mesh.vertices, mesh.triangles[:-1], process=False).export(tmp_path / "c.obj")
+    text = '[surface]\nfile = "a.obj"\nedited_file = "{}.obj"\ncentre = [0, -420, 0]\n[pattern]\nwidth = 9\n'
+    (tmp_path / "b.toml").write_text(text.format("b"))
+    (tmp_path / "c.toml").write_text(text.format("c"))
+    result = plisse.design(tmp_path / "b.toml")
+    assert result.status == "exact"
+    assert result.report.deviation.mean_amplitudes < 0.5
+    middles = result.structure.vertices[result.structure.topology.quads].mean(axis=1)
+    x, y, z = middles[np.hypot(middles[:, 0], middles[:, 1]) < 40].T
+    before = 12 * np.sin(x / 45) * np.cos(y / 60)
+    lift = 8 * np.exp(-(x**2 + y**2) / 3000)
+    assert np.abs(z - before - lift).mean() < 0.5 * np.abs(z - before).mean()
+    with pytest.raises(InvalidDesign, match="faces that are not"):
+        plisse.design(tmp_path / "c.toml")
+
+
+def test_a_guide_needs_what_it_needs():
+    base = {"height": "0.1*x*y", "x": [-1, 1], "y": [-1, 1]}
+    for surface, pattern, expected in (
+            ({"guide": [[0, 0, 0], [1, 0, 0]]}, {}, "pattern.theta is missing"),
+            ({"fan": [0, 0, 0]}, {"theta": 50, "amplitude": 0.1, "creases": 20}, "fan_radius"),
+            ({"fan": [0, 0, 0], "guide": [[0, 0, 0], [1, 0, 0]]}, {}, "both"),
+            ({}, {"initial": "normal"}, "surface.centre"),
+            ({"edited_file": "x.obj"}, {}, "surface.file")):
+        with pytest.raises(InvalidDesign, match=expected):
+            plisse.design({"surface": {**base, **surface}, "pattern": pattern})

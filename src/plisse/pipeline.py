@@ -8,13 +8,10 @@ import numpy as np
 
 from plisse.assess import assess, overlap_notes, start_defects
 from plisse.errors import Infeasible
-from plisse.geometry.graph import GraphSurface
-from plisse.geometry.mesh import ReferenceMesh
-from plisse.geometry.surface import Surface
 from plisse.io.designs import design_from_dict, read_design
 from plisse.layout.guiding import Guiding, guiding
+from plisse.outcomes import broken_down, said_of
 from plisse.recipe import Design, SurfaceDesign
-from plisse.reconstruction import deviation_of, guided_start, inclinations_of, lies_over, reference_surface
 from plisse.result import Report, Result
 from plisse.solve.attempt import Start
 from plisse.solve.closed_form import closed_form
@@ -23,11 +20,11 @@ from plisse.solve.energies import Guides
 from plisse.solve.flatten import flatten, laid_out
 from plisse.solve.forecast import forecast
 from plisse.solve.paper import solve_paper
-from plisse.solve.portfolio import GENERAL, PRINCIPAL, SECOND_CHANCE, Outcome, Way, solve
-from plisse.solve.whole_surface import whole_surface
+from plisse.solve.portfolio import GENERAL, PRINCIPAL, SECOND_CHANCE, Way, solve
 from plisse.solve.zigzag import zigzag
 from plisse.stopwatch import Stopwatch
 from plisse.structure.pleated import PleatedStructure
+from plisse.surfaces import reconstructed
 
 __all__ = ["design"]
 
@@ -44,7 +41,7 @@ def design(recipe: Design | SurfaceDesign | dict | str | Path, *, progress: Prog
     recipe = _checked(recipe)
     watch = Stopwatch(progress)
     if isinstance(recipe, SurfaceDesign):
-        return _over_surface(recipe, watch)
+        return reconstructed(recipe, watch)
     if recipe.closed_form is not None:
         return _by_formula(recipe, watch)
     assert recipe.curve is not None  # a checked recipe without closed form has both
@@ -53,60 +50,10 @@ def design(recipe: Design | SurfaceDesign | dict | str | Path, *, progress: Prog
     try:
         guide = guiding(recipe.curve, recipe.pattern)
     except Infeasible as error:
-        return _broken_down(recipe, [str(error)], watch)
+        return broken_down(recipe, [str(error)], watch)
     watch.start("solve", 0.2)
     zigzagged = zigzag(guide.pattern.resampled(guide.samples), guide.amplitude)
     return (_by_the_paper if recipe.solve.method == "paper" else _exactly)(recipe, guide, zigzagged, watch)
-
-
-def _over_surface(recipe: SurfaceDesign, watch: Stopwatch) -> Result:
-    """The reconstruction of a surface: layouts of fitted inclination, the best of those that become exact (§3.1)."""
-    watch.start("surface", 0.0)
-    mesh, surface = reference_surface(recipe.surface)
-    watch.start("solve", 0.1)
-    if recipe.surface.guide is not None or recipe.surface.fan is not None:
-        return _along_a_guide(recipe, mesh, surface, watch)
-    if not isinstance(surface, GraphSurface):
-        return _broken_down(recipe, ["the surface is no graph over its mean plane, so rows cannot be laid over the whole of "
-                                     "it; give surface.guide or surface.fan"], watch)
-    pattern = recipe.pattern
-    try:
-        found = whole_surface(
-            mesh, surface, width=pattern.width, amplitude=pattern.amplitude, overhang=recipe.surface.overhang,
-            theta=None if pattern.theta is None else float(np.radians(pattern.theta)),
-            centre=None if recipe.surface.centre is None else np.array(recipe.surface.centre))
-    except Infeasible as error:
-        return _broken_down(recipe, [str(error)], watch)
-    watch.start("flatten", 0.9)
-    structure = flatten(found.structure, best_cut(found.structure))
-    watch.start("measure", 0.95)
-    report = assess(structure, units=recipe.units)
-    report = msgspec.structs.replace(
-        report, seconds=watch.stop(), design=recipe.to_dict(), method="fitted inclination", coverage=found.coverage,
-        deviation=deviation_of(found, mesh.diagonal), inclination_deg=inclinations_of(found), warnings=list(found.notes))
-    return Result(recipe, report, structure=structure)
-
-
-def _along_a_guide(recipe: SurfaceDesign, mesh: ReferenceMesh, surface: Surface, watch: Stopwatch) -> Result:
-    """Creases of constant inclination, shot from a guide or around a point (Figs 2, 12, 20)."""
-    try:
-        start = guided_start(recipe.surface, recipe.pattern, mesh, surface)
-    except Infeasible as error:
-        return _broken_down(recipe, [str(error)], watch)
-    best = (outcome := solve([(start, SECOND_CHANCE)])).best
-    if best.attempt.vertices is None:
-        return _broken_down(recipe, [best.attempt.message], watch)
-    watch.start("flatten", 0.8)
-    structure = PleatedStructure(start.topology, best.attempt.vertices)
-    structure = flatten(structure, best_cut(structure))
-    watch.start("measure", 0.9)
-    report = assess(structure, guides=start.guides(start.samples), amplitude=start.amplitude, units=recipe.units)
-    coverage, deviation = lies_over(structure, mesh, surface, start.amplitude)
-    report = msgspec.structs.replace(
-        report, seconds=watch.stop(), design=recipe.to_dict(), method=best.attempt.method,
-        iterations=best.attempt.iterations, history=[float(value) for value in best.attempt.history],
-        tried=_said_of(outcome), coverage=coverage, deviation=deviation, warnings=overlap_notes(report))
-    return Result(recipe, report, start.pattern, zigzag(start.pattern, start.amplitude), structure)
 
 
 def _by_formula(recipe: Design, watch: Stopwatch) -> Result:
@@ -128,7 +75,7 @@ def _exactly(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, watch:
     outcome = solve(_plans(recipe, guide))
     best = outcome.best
     if best.attempt.vertices is None:
-        return _broken_down(recipe, [best.attempt.message, *foreseen], watch, guide, zigzagged)
+        return broken_down(recipe, [best.attempt.message, *foreseen], watch, guide, zigzagged)
     watch.start("flatten", 0.6)
     structure = PleatedStructure(best.start.topology, best.attempt.vertices)
     structure = flatten(structure, best_cut(structure, recipe.solve.cut))
@@ -138,7 +85,7 @@ def _exactly(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, watch:
     warnings = guide.notes + _notes(best.start, guide) + overlap_notes(report)
     report = msgspec.structs.replace(
         report, start=start_defects(zigzagged), iterations=best.attempt.iterations, method=best.attempt.method,
-        history=[float(value) for value in best.attempt.history], tried=_said_of(outcome),
+        history=[float(value) for value in best.attempt.history], tried=said_of(outcome),
         warnings=warnings + ([] if report.reasons else remaining),
         reasons=report.reasons + (foreseen if report.reasons else []))
     return Result(recipe, report, best.start.pattern, zigzagged, structure)
@@ -195,24 +142,3 @@ def _plans(recipe: Design, guide: Guiding) -> Iterator[tuple[Start, tuple[Way, .
         yield Start(other.pattern, amplitude, guide.samples, principal, label), SECOND_CHANCE
     if principal and recipe.is_closed and guide.samples % 2 == 0:
         yield Start(guide.pattern, amplitude, guide.samples + 1, principal, "one sample more, to close"), ways
-
-
-def _said_of(outcome: Outcome) -> list[str]:
-    """One line per attempt that was not chosen."""
-    lines = []
-    for judged in outcome.tried:
-        if judged is outcome.best:
-            continue
-        verdict = judged.verdict
-        what = judged.attempt.message if verdict is None else (
-            f"planarity {verdict.planarity:.1e}, angles {max(verdict.angle, verdict.principal):.1e}, smallest sector "
-            f"{np.degrees(verdict.regularity.min_sector):.1f}°, deviation {verdict.deviation:.2f} amplitudes")
-        lines.append(": ".join(part for part in (judged.attempt.method, judged.start.label, what) if part))
-    return lines
-
-
-def _broken_down(recipe: Design | SurfaceDesign, reasons: list[str], watch: Stopwatch, guide: Guiding | None = None,
-                 zigzagged: PleatedStructure | None = None) -> Result:
-    report = Report(status="infeasible", reasons=reasons, seconds=watch.stop(), units=recipe.units,
-                    design=recipe.to_dict())
-    return Result(recipe, report, guide.pattern if guide else None, zigzagged)

@@ -9,7 +9,7 @@ import msgspec
 from msgspec import Meta
 
 __all__ = ["MILLIMETRES", "Arc", "ClosedForm", "Cones", "ConicCreases", "Curve", "Design", "Ellipse", "Helix", "Miura",
-           "Pattern", "Points", "Solve", "Spline", "Surface", "SurfaceDesign", "SurfacePattern", "TorusKnot"]
+           "Pattern", "Points", "Pull", "Solve", "Spline", "Surface", "SurfaceDesign", "SurfacePattern", "TorusKnot"]
 
 Length = Annotated[float, Meta(ge=1e-9, le=1e9, description="a length in model units from 1e-9 to 1e9")]
 Inclination = Annotated[float, Meta(ge=0, lt=90, description="degrees from 0 up to, not including, 90")]
@@ -172,14 +172,23 @@ class Design(_Strict, kw_only=True, frozen=True):
         return self.curve is not None and self.curve.closed
 
 
+class Pull(_Strict, kw_only=True, frozen=True):
+    """An edit of a surface: `point` moves by `displacement`, its surroundings follow smoothly up to `radius`."""
+
+    point: Point
+    displacement: Point
+    radius: Length
+
+
 class Surface(_Strict, kw_only=True, frozen=True):
     """A reference surface: a mesh file, a height z(x, y) over a rectangle, a radius r(x) about the z axis for x = z
     over the range `x`, or a torus [R, r].
 
     With `guide` (points joined on the surface) or `fan` (a point) creases are pseudo-geodesics of constant inclination;
     otherwise rows are laid out over the whole surface, around `centre` where it is given, and inclinations are fitted.
-    Without `overhang` these stay below 45° when they are fitted and creases open by 15° at least; where faces overhang
-    all the same the report says how many.
+    `handles`, or an `edited_file` with the same faces, change the surface after it was laid out and solved; the
+    structure follows and is solved again (Fig. 23). Without `overhang` inclinations stay below 45° when they are fitted
+    and creases open by 15° at least; where faces overhang all the same the report says how many.
     """
 
     file: str | None = None
@@ -195,6 +204,8 @@ class Surface(_Strict, kw_only=True, frozen=True):
     fan: Point | None = None
     fan_radius: Length | None = None
     reach: Length | None = None
+    handles: list[Pull] | None = None
+    edited_file: str | None = None
     beyond: bool = False
     tuned: bool = True
 
@@ -211,6 +222,8 @@ class SurfacePattern(_Strict, kw_only=True, frozen=True):
     amplitude: Length | None = None
     creases: Annotated[int, Meta(ge=3, le=1000, description="a whole number from 3 to 1000")] | None = None
     samples: Annotated[int, Meta(ge=5, le=20_000, description="a whole number from 5 to 20000")] = 60
+    initial: Annotated[Literal["binormal", "normal"], Meta(description="binormal, or normal for the failure of Fig. 25")] = \
+        "binormal"
 
 
 class SurfaceDesign(_Strict, kw_only=True, frozen=True):

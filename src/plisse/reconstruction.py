@@ -1,11 +1,16 @@
 """A surface section of a design, from the recipe to numbers of the report (§3.1)."""
 
+from dataclasses import replace
+
 import numpy as np
+import trimesh
+from scipy.spatial import cKDTree
 
 from plisse.errors import InvalidDesign
 from plisse.geometry.expression import height_expression
 from plisse.geometry.formulas import Torus
 from plisse.geometry.graph import GraphSurface, facing_up
+from plisse.geometry.handles import Handle, follow, moved
 from plisse.geometry.height_field import HeightField
 from plisse.geometry.jets import JetSurface
 from plisse.geometry.mesh import ReferenceMesh, grid_mesh
@@ -14,14 +19,18 @@ from plisse.io.meshes import read_mesh
 from plisse.layout.coverage import AreaSamples, covered
 from plisse.layout.family import guide_through
 from plisse.layout.family_columns import fan_pattern, guided_pattern
+from plisse.measure.inclination import crease_inclinations
 from plisse.measure.mid_surface import MidSurfaceDeviation, mid_surface_deviation
+from plisse.measure.regularity import OPENING_RANGE
 from plisse.recipe import Surface, SurfacePattern
 from plisse.result import Deviation, Interval
 from plisse.solve.attempt import Start
-from plisse.solve.whole_surface import WholeSurface
+from plisse.solve.edited import edited_structure
+from plisse.solve.whole_surface import FOLDABLE, REACH, WholeSurface
 from plisse.structure.pleated import PleatedStructure
 
-__all__ = ["deviation_of", "guided_start", "inclinations_of", "lies_over", "reference_surface"]
+__all__ = ["deviation_of", "edited_vertices", "guided_start", "inclinations_of", "lies_over", "reference_surface",
+           "solved_again"]
 
 GRAPH = 0.9999
 FAN_GAPS = (0.5, 2.0)  # where a fan begins and ends, in gaps of a flat disk
@@ -83,6 +92,45 @@ def guided_start(section: Surface, recipe: SurfacePattern, mesh: ReferenceMesh, 
                                  creases=recipe.creases, samples=recipe.samples, closed_family=section.guide_closed,
                                  tuned=section.tuned, length=section.reach, beyond=section.beyond)
     return Start(pattern, recipe.amplitude, pattern.samples)
+
+
+def edited_vertices(section: Surface, mesh: ReferenceMesh) -> np.ndarray | None:
+    """Vertices (V, 3) of the mesh after the edits of a surface section, or None where there are none.
+
+    Raises InvalidDesign where the edited file has other faces.
+    """
+    if section.handles is not None:
+        return moved(mesh.vertices, [Handle(np.array(pull.point), np.array(pull.displacement), pull.radius)
+                                     for pull in section.handles])
+    if section.edited_file is None:
+        return None
+    _ = read_mesh(section.edited_file)  # a file that is no mesh is one sentence
+    before, after = (trimesh.load_mesh(path, process=False) for path in (section.file, section.edited_file))
+    if before.faces.shape != after.faces.shape or not np.array_equal(before.faces, after.faces):
+        raise InvalidDesign(f"surface.edited_file has {len(after.faces)} faces that are not the {len(before.faces)} of "
+                            "surface.file; move vertices without adding or removing any")
+    return np.asarray(after.vertices)[cKDTree(before.vertices).query(mesh.vertices)[1]]
+
+
+def solved_again(found: WholeSurface, mesh: ReferenceMesh, vertices: np.ndarray,
+                 overhang: bool) -> tuple[ReferenceMesh, WholeSurface]:
+    """The edited mesh and the structure carried along with it and solved from there (Fig. 23).
+
+    Raises Infeasible, saying how far it got.
+    """
+    edited = ReferenceMesh(vertices, mesh.triangles)
+    surface = GraphSurface(edited)
+    rest = follow(found.structure.vertices, mesh, vertices)
+    least = OPENING_RANGE[0] if overhang else FOLDABLE
+    structure = edited_structure(found.structure, rest, normals=surface.project(rest).normals, least_opening=least).structure
+    quads, part, layout = structure.topology.quads, found.best.solved.grid, found.best.layout
+    inclination = crease_inclinations(structure.topology, structure.vertices, surface.project(structure.vertices).normals,
+                                      layout.net.outward.reshape(-1, 3)[part.used])
+    coverage = covered(AreaSamples.of(vertices, mesh.triangles), structure.vertices, quads, REACH * layout.sizes.width)
+    notes = (f"solved again on the edited surface: θ runs from {np.degrees(inclination.min()):.0f}° to "
+             f"{np.degrees(inclination.max()):.0f}°",)
+    return edited, replace(found, structure=structure, inclination=inclination, coverage=coverage, notes=notes,
+                           deviation=mid_surface_deviation(surface, structure.vertices, quads))
 
 
 def lies_over(structure: PleatedStructure, mesh: ReferenceMesh, surface: Reference,

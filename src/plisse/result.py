@@ -4,12 +4,14 @@ from dataclasses import dataclass
 from typing import Literal
 
 import msgspec
+import numpy as np
 
+from plisse.geometry.mesh import ReferenceMesh
 from plisse.recipe import Design, SurfaceDesign
 from plisse.structure.pattern import Pattern
 from plisse.structure.pleated import PleatedStructure
 
-__all__ = ["Deviation", "Interval", "Report", "Result", "Sheet", "Spread"]
+__all__ = ["Deviation", "Interval", "Overlay", "Report", "Result", "Sheet", "Spread"]
 
 
 class Spread(msgspec.Struct, frozen=True):
@@ -78,6 +80,15 @@ class Report(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=False):
 
 
 @dataclass(frozen=True, eq=False)
+class Overlay:
+    """A reference mesh, the distances (F,) of faces from it in model units, and the amplitude that is their unit."""
+
+    mesh: ReferenceMesh
+    distances: np.ndarray
+    amplitude: float
+
+
+@dataclass(frozen=True, eq=False)
 class Result:
     """A design, its guiding pattern, the zigzag it started from, the structure and its report.
 
@@ -89,6 +100,7 @@ class Result:
     pattern: Pattern | None = None
     zigzagged: PleatedStructure | None = None
     structure: PleatedStructure | None = None
+    overlay: Overlay | None = None
 
     @property
     def status(self) -> str:

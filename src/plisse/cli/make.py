@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 __all__ = ["FILES", "make", "write_files"]
 
-FILES = ("structure.fold", "structure.obj", "development.svg", "preview.png", "report.json")
+FILES = ("structure.fold", "structure.obj", "development.svg", "preview.png", "overlay.png", "report.json")
 
 
 def make(
@@ -66,6 +66,7 @@ def make(
 def write_files(result: Result, directory: Path, *, title: str) -> Report:
     """The report as written: `directory` gets all FILES that exist for the result, together or not at all."""
     from plisse.draw.drawing import crease_pattern
+    from plisse.draw.overlay import write_overlay
     from plisse.draw.preview import write_preview
     from plisse.io.atomic import written_together
     from plisse.io.fold import write_fold
@@ -79,6 +80,9 @@ def write_files(result: Result, directory: Path, *, title: str) -> Report:
         if structure is not None:
             write_obj(structure, stage / "structure.obj", title=title, units=units)
             write_preview(result, stage / "preview.png", title=title)
+        if structure is not None and result.overlay is not None:
+            over = result.overlay
+            write_overlay(structure, over.mesh, over.distances, stage / "overlay.png", amplitude=over.amplitude, title=title)
         if structure is not None and structure.development is not None:
             write_fold(structure, stage / "structure.fold", title=title, units=units)
             write_svg(crease_pattern(structure, units, title=title), stage / "development.svg")

@@ -71,6 +71,12 @@ def check_surface_design(design: SurfaceDesign) -> SurfaceDesign:
         for name in names:
             if getattr(surface, kind) is not None and getattr(pattern, name) is None:
                 raise InvalidDesign(f"pattern.{name} is missing; a layout along surface.{kind} needs it")
+    if surface.handles is not None and surface.edited_file is not None:
+        raise InvalidDesign("surface.handles and surface.edited_file are both given; edit the surface in one way")
+    if surface.edited_file is not None and surface.file is None:
+        raise InvalidDesign("surface.edited_file needs surface.file, the same mesh before it was edited")
+    if pattern.initial == "normal" and None in (surface.centre, pattern.width, pattern.amplitude):
+        raise InvalidDesign("pattern.initial = \"normal\" needs surface.centre, pattern.width and pattern.amplitude")
     if surface.fan is not None and surface.fan_radius is None:
         raise InvalidDesign("surface.fan_radius is missing; say how far from surface.fan the creases begin")
     for name, (low, high) in (("x", surface.x), ("y", surface.y)):

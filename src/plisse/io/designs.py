@@ -89,7 +89,9 @@ def _with_mesh(design: SurfaceDesign, base: Path) -> SurfaceDesign:
     surface = design.surface
     if surface.file is None or base == Path():
         return design
-    return msgspec.structs.replace(design, surface=msgspec.structs.replace(surface, file=str(base / surface.file)))
+    edited = None if surface.edited_file is None else str(base / surface.edited_file)
+    surface = msgspec.structs.replace(surface, file=str(base / surface.file), edited_file=edited)
+    return msgspec.structs.replace(design, surface=surface)
 
 
 def _with_points(design: Design, base: Path) -> Design:
