@@ -87,7 +87,7 @@ def test_the_mesh_is_found_relative_to_the_design(tmp_path):
 
 def test_an_edited_file_with_the_same_faces_is_followed(tmp_path, roof):
     mesh = HeightField(HEIGHT["surface"]["height"], (-100, 100), (-70, 70)).mesh(60)
-    lifted = mesh.vertices + np.array([0, 0, 8.0]) * np.exp(-(mesh.vertices[:, :1] ** 2 + mesh.vertices[:, 1:2] ** 2) / 3000)
+    lifted = mesh.vertices + np.array([0, 0, 20.0]) * np.exp(-(mesh.vertices[:, :1] ** 2 + mesh.vertices[:, 1:2] ** 2) / 8000)
     for name, vertices in (("a.obj", mesh.vertices), ("b.obj", lifted)):
         trimesh.Trimesh(vertices, mesh.triangles, process=False).export(tmp_path / name)
     trimesh.Trimesh(mesh.vertices, mesh.triangles[:-1], process=False).export(tmp_path / "c.obj")
@@ -100,7 +100,7 @@ def test_an_edited_file_with_the_same_faces_is_followed(tmp_path, roof):
     middles = result.structure.vertices[result.structure.topology.quads].mean(axis=1)
     x, y, z = middles[np.hypot(middles[:, 0], middles[:, 1]) < 40].T
     before = 12 * np.sin(x / 45) * np.cos(y / 60)
-    lift = 8 * np.exp(-(x**2 + y**2) / 3000)
+    lift = 20 * np.exp(-(x**2 + y**2) / 8000)
     assert np.abs(z - before - lift).mean() < 0.5 * np.abs(z - before).mean()
     with pytest.raises(InvalidDesign, match="faces that are not"):
         plisse.design(tmp_path / "c.toml")
