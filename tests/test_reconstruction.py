@@ -87,7 +87,8 @@ def test_the_mesh_is_found_relative_to_the_design(tmp_path):
 
 def test_an_edited_file_with_the_same_faces_is_followed(tmp_path, roof):
     mesh = HeightField(HEIGHT["surface"]["height"], (-100, 100), (-70, 70)).mesh(60)
-    lifted = mesh.vertices + np.array([0, 0, 20.0]) * np.exp(-(mesh.vertices[:, :1] ** 2 + mesh.vertices[:, 1:2] ** 2) / 8000)
+    square = mesh.vertices[:, :1] ** 2 + mesh.vertices[:, 1:2] ** 2
+    lifted = mesh.vertices + np.array([0, 0, 20.0]) * np.exp(-square / 8000)
     for name, vertices in (("a.obj", mesh.vertices), ("b.obj", lifted)):
         trimesh.Trimesh(vertices, mesh.triangles, process=False).export(tmp_path / name)
     trimesh.Trimesh(mesh.vertices, mesh.triangles[:-1], process=False).export(tmp_path / "c.obj")
