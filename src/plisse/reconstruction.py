@@ -17,8 +17,8 @@ from plisse.geometry.mesh import ReferenceMesh, grid_mesh
 from plisse.geometry.surface import Surface as Reference
 from plisse.io.meshes import read_mesh
 from plisse.layout.coverage import AreaSamples, covered
-from plisse.layout.family import guide_through
 from plisse.layout.family_columns import fan_pattern, guided_pattern
+from plisse.layout.guides import guide_through
 from plisse.measure.inclination import crease_inclinations
 from plisse.measure.mid_surface import MidSurfaceDeviation, mid_surface_deviation
 from plisse.measure.regularity import OPENING_RANGE

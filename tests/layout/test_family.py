@@ -8,8 +8,9 @@ from plisse.errors import Infeasible, InvalidDesign
 from plisse.geometry.formulas import Cone, Cylinder, HeightField, Sphere, Torus
 from plisse.geometry.polyline import distance_to_polyline
 from plisse.geometry.vectors import dot, norm, unit
-from plisse.layout.family import Family, Guide, boundary_guide, crease_positions, fan, guide_through, section_guide, shoot
+from plisse.layout.family import Family, crease_positions, fan, shoot
 from plisse.layout.family_columns import guided_pattern, pattern_of, trajectories
+from plisse.layout.guides import Guide, boundary_guide, guide_through, section_guide
 from plisse.layout.stops import Stop, Trace
 from plisse.measure.mid_surface import mid_surface_deviation
 from plisse.measure.sectors import angle_defect

@@ -12,7 +12,8 @@ from plisse.errors import Infeasible, InvalidDesign
 from plisse.geometry.mesh import ReferenceMesh
 from plisse.geometry.surface import Surface
 from plisse.geometry.vectors import dot, norm, unit
-from plisse.layout.family import Family, Guide, boundary_guide, fan, guide_through, shoot
+from plisse.layout.family import Family, fan, shoot
+from plisse.layout.guides import Guide, boundary_guide, guide_through
 from plisse.layout.stops import Stop
 from plisse.structure.pattern import Pattern, interpolate_along
 
