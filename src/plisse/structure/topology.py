@@ -12,8 +12,9 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from plisse.errors import InvalidStructure
+from plisse.structure.lines import Polyline, joined
 
-__all__ = ["Topology"]
+__all__ = ["Corners", "Edges", "Polyline", "Topology"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,18 +106,14 @@ class Topology:
         return {k: _ring_corners(self, k)[1] for k in self.stars}
 
     @cached_property
-    def creases(self) -> tuple["Polyline", ...]:
+    def creases(self) -> tuple[Polyline, ...]:
         """Crease polylines, ordered along the crease."""
-        from plisse.structure.chains import chains
-
-        return chains(self, crease=True)
+        return joined(self.edges.vertices[self.edges.is_crease])
 
     @cached_property
-    def rulings(self) -> tuple["Polyline", ...]:
+    def rulings(self) -> tuple[Polyline, ...]:
         """Zigzag polylines of consecutive rulings across the creases."""
-        from plisse.structure.chains import chains
-
-        return chains(self, crease=False)
+        return joined(self.edges.vertices[~self.edges.is_crease])
 
     @cached_property
     def components(self) -> int:
@@ -158,14 +155,6 @@ class Edges:
     def is_boundary(self) -> np.ndarray:
         """Mask of edges with one face only."""
         return self.faces[:, 1] < 0
-
-
-@dataclass(frozen=True, eq=False)
-class Polyline:
-    """Vertex indices along a chain of edges; closed chains do not repeat the first."""
-
-    vertices: np.ndarray
-    closed: bool = False
 
 
 def _edges(topology: Topology) -> Edges:
