@@ -9,10 +9,17 @@ from plisse.solve.portfolio import Outcome
 from plisse.stopwatch import Stopwatch
 from plisse.structure.pleated import PleatedStructure
 
-__all__ = ["broken_down", "said_of"]
+__all__ = ["broken_down", "way_of"]
 
 
-def said_of(outcome: Outcome) -> list[str]:
+def way_of(outcome: Outcome) -> dict:
+    """The entries of a report that tell how its structure came about."""
+    attempt = outcome.best.attempt
+    return {"method": attempt.method, "iterations": attempt.iterations, "tried": _said_of(outcome),
+            "history": [float(value) for value in attempt.history]}
+
+
+def _said_of(outcome: Outcome) -> list[str]:
     """One line per attempt that was not chosen."""
     lines = []
     for judged in outcome.tried:

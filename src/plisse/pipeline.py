@@ -10,7 +10,7 @@ from plisse.assess import assess, overlap_notes, start_defects
 from plisse.errors import Infeasible
 from plisse.io.designs import design_from_dict, read_design
 from plisse.layout.guiding import Guiding, guiding
-from plisse.outcomes import broken_down, said_of
+from plisse.outcomes import broken_down, way_of
 from plisse.recipe import Design, SurfaceDesign
 from plisse.result import Report, Result
 from plisse.solve.attempt import Start
@@ -84,8 +84,7 @@ def _exactly(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, watch:
     remaining = foreseen if not best.is_comfortable else ahead.warnings_of_openings()
     warnings = guide.notes + _notes(best.start, guide) + overlap_notes(report)
     report = msgspec.structs.replace(
-        report, start=start_defects(zigzagged), iterations=best.attempt.iterations, method=best.attempt.method,
-        history=[float(value) for value in best.attempt.history], tried=said_of(outcome),
+        report, start=start_defects(zigzagged), **way_of(outcome),
         warnings=warnings + ([] if report.reasons else remaining),
         reasons=report.reasons + (foreseen if report.reasons else []))
     return Result(recipe, report, best.start.pattern, zigzagged, structure)

@@ -1,5 +1,6 @@
 """A surface section of a design, from the recipe to numbers of the report (§3.1)."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -22,15 +23,15 @@ from plisse.layout.guides import guide_through
 from plisse.measure.inclination import crease_inclinations
 from plisse.measure.mid_surface import MidSurfaceDeviation, mid_surface_deviation
 from plisse.measure.regularity import OPENING_RANGE
-from plisse.recipe import Surface, SurfacePattern
+from plisse.recipe import Surface, SurfaceDesign, SurfacePattern
 from plisse.result import Deviation, Interval
 from plisse.solve.attempt import Start
 from plisse.solve.edited import edited_structure
-from plisse.solve.whole_surface import FOLDABLE, REACH, WholeSurface
+from plisse.solve.whole_surface import FOLDABLE, REACH, WholeSurface, whole_surface
 from plisse.structure.pleated import PleatedStructure
 
-__all__ = ["deviation_of", "edited_vertices", "guided_start", "inclinations_of", "lies_over", "reference_surface",
-           "solved_again"]
+__all__ = ["deviation_of", "edited_vertices", "guided_start", "inclinations_of", "laid_out_over", "lies_over",
+           "reference_surface", "solved_again"]
 
 GRAPH = 0.9999
 FAN_GAPS = (0.5, 2.0)  # where a fan begins and ends, in gaps of a flat disk
@@ -94,6 +95,16 @@ def guided_start(section: Surface, recipe: SurfacePattern, mesh: ReferenceMesh, 
     return Start(pattern, recipe.amplitude, pattern.samples)
 
 
+def laid_out_over(recipe: SurfaceDesign, mesh: ReferenceMesh, surface: GraphSurface, candidates: int = 20,
+                  progress: Callable[[str, float], None] | None = None) -> WholeSurface:
+    """The best of the layouts of fitted inclination that a design asks for; raises Infeasible where none is solved."""
+    section, pattern = recipe.surface, recipe.pattern
+    return whole_surface(
+        mesh, surface, width=pattern.width, amplitude=pattern.amplitude, overhang=section.overhang, candidates=candidates,
+        theta=None if pattern.theta is None else float(np.radians(pattern.theta)),
+        centre=None if section.centre is None else np.array(section.centre), progress=progress)
+
+
 def edited_vertices(section: Surface, mesh: ReferenceMesh) -> np.ndarray | None:
     """Vertices (V, 3) of the mesh after the edits of a surface section, or None where there are none.
 
@@ -134,21 +145,17 @@ def solved_again(found: WholeSurface, mesh: ReferenceMesh, vertices: np.ndarray,
 
 
 def lies_over(structure: PleatedStructure, mesh: ReferenceMesh, surface: Reference,
-              amplitude: float) -> tuple[float, Deviation]:
+              amplitude: float) -> tuple[float, MidSurfaceDeviation]:
     """Fraction of the mesh's area under a structure, and the distance of its mid-surface."""
     quads = structure.topology.quads
     samples = AreaSamples.of(mesh.vertices, mesh.triangles)
     reach = 3 * amplitude + 3 * structure.mean_edge
-    found = mid_surface_deviation(surface, structure.vertices, quads)
-    return covered(samples, structure.vertices, quads, reach), _deviation(found, mesh.diagonal, amplitude)
+    return (covered(samples, structure.vertices, quads, reach),
+            mid_surface_deviation(surface, structure.vertices, quads))
 
 
-def deviation_of(found: WholeSurface, diagonal: float) -> Deviation:
+def deviation_of(found: MidSurfaceDeviation, diagonal: float, amplitude: float) -> Deviation:
     """Distance of the mid-surface from the reference in three units."""
-    return _deviation(found.deviation, diagonal, found.best.layout.sizes.amplitude)
-
-
-def _deviation(found: MidSurfaceDeviation, diagonal: float, amplitude: float) -> Deviation:
     return Deviation(found.max, found.mean, found.max / diagonal, found.mean / diagonal, found.max / amplitude,
                      found.mean / amplitude)
 

@@ -10,14 +10,14 @@ from plisse.geometry.mesh import ReferenceMesh
 from plisse.geometry.surface import Surface
 from plisse.layout.automatic import Sizes, starting_rows
 from plisse.layout.coverage import AreaSamples
-from plisse.measure.mid_surface import mid_surface_deviation
-from plisse.outcomes import broken_down, said_of
+from plisse.outcomes import broken_down, way_of
 from plisse.recipe import SurfaceDesign
 from plisse.reconstruction import (
     deviation_of,
     edited_vertices,
     guided_start,
     inclinations_of,
+    laid_out_over,
     lies_over,
     reference_surface,
     solved_again,
@@ -27,7 +27,6 @@ from plisse.solve.bad_start import fail_both_ways, surface_start
 from plisse.solve.cutting import best_cut
 from plisse.solve.flatten import flatten
 from plisse.solve.portfolio import SECOND_CHANCE, solve
-from plisse.solve.whole_surface import WholeSurface, whole_surface
 from plisse.solve.zigzag import zigzag
 from plisse.stopwatch import Stopwatch
 from plisse.structure.pleated import PleatedStructure
@@ -48,7 +47,7 @@ def reconstructed(recipe: SurfaceDesign, watch: Stopwatch) -> Result:
     try:
         if recipe.pattern.initial == "normal":
             return _from_a_bad_start(recipe, mesh, surface, watch)
-        found = _laid_out(recipe, mesh, surface)
+        found = laid_out_over(recipe, mesh, surface)
         vertices = edited_vertices(recipe.surface, mesh)
         if vertices is not None:
             mesh, found = solved_again(found, mesh, vertices, recipe.surface.overhang)
@@ -57,22 +56,12 @@ def reconstructed(recipe: SurfaceDesign, watch: Stopwatch) -> Result:
     watch.start("flatten", 0.9)
     structure = flatten(found.structure, best_cut(found.structure))
     watch.start("measure", 0.95)
-    report = assess(structure, units=recipe.units)
+    report, amplitude = assess(structure, units=recipe.units), found.best.layout.sizes.amplitude
     report = msgspec.structs.replace(
         report, seconds=watch.stop(), design=recipe.to_dict(), method="fitted inclination", coverage=found.coverage,
-        deviation=deviation_of(found, mesh.diagonal), inclination_deg=inclinations_of(found),
+        deviation=deviation_of(found.deviation, mesh.diagonal, amplitude), inclination_deg=inclinations_of(found),
         warnings=[*found.notes, *overlap_notes(report)])
-    overlay = Overlay(mesh, found.deviation.distances, found.best.layout.sizes.amplitude)
-    return Result(recipe, report, structure=structure, overlay=overlay)
-
-
-def _laid_out(recipe: SurfaceDesign, mesh: ReferenceMesh, surface: GraphSurface) -> WholeSurface:
-    """Layouts of fitted inclination, the best of those that become exact."""
-    pattern = recipe.pattern
-    return whole_surface(
-        mesh, surface, width=pattern.width, amplitude=pattern.amplitude, overhang=recipe.surface.overhang,
-        theta=None if pattern.theta is None else float(np.radians(pattern.theta)),
-        centre=None if recipe.surface.centre is None else np.array(recipe.surface.centre))
+    return Result(recipe, report, structure=structure, overlay=Overlay(mesh, found.deviation.distances, amplitude))
 
 
 def _along_a_guide(recipe: SurfaceDesign, mesh: ReferenceMesh, surface: Surface, watch: Stopwatch) -> Result:
@@ -91,12 +80,11 @@ def _along_a_guide(recipe: SurfaceDesign, mesh: ReferenceMesh, surface: Surface,
     report = assess(structure, guides=start.guides(start.samples), amplitude=start.amplitude, units=recipe.units)
     coverage, deviation = lies_over(structure, mesh, surface, start.amplitude)
     report = msgspec.structs.replace(
-        report, seconds=watch.stop(), design=recipe.to_dict(), method=best.attempt.method,
-        iterations=best.attempt.iterations, history=[float(value) for value in best.attempt.history],
-        tried=said_of(outcome), coverage=coverage, deviation=deviation, warnings=overlap_notes(report))
+        report, seconds=watch.stop(), design=recipe.to_dict(), coverage=coverage,
+        deviation=deviation_of(deviation, mesh.diagonal, start.amplitude), warnings=overlap_notes(report),
+        **way_of(outcome))
     return Result(recipe, report, start.pattern, zigzag(start.pattern, start.amplitude), structure,
-                  Overlay(mesh, mid_surface_deviation(surface, structure.vertices, structure.topology.quads).distances,
-                          start.amplitude))
+                  Overlay(mesh, deviation.distances, start.amplitude))
 
 
 def _from_a_bad_start(recipe: SurfaceDesign, mesh: ReferenceMesh, surface: GraphSurface, watch: Stopwatch) -> Result:
@@ -118,6 +106,6 @@ def _from_a_bad_start(recipe: SurfaceDesign, mesh: ReferenceMesh, surface: Graph
              f"{bad.departure(found):.1f} amplitudes away"
              for name, found in (("exactness enforced", bad.straightened), ("closeness enforced", bad.held))]
     report = msgspec.structs.replace(
-        report, seconds=watch.stop(), design=recipe.to_dict(), method="paper", coverage=coverage, deviation=deviation,
-        tried=tried, reasons=[bad.diagnosis, *report.reasons])
+        report, seconds=watch.stop(), design=recipe.to_dict(), method="paper", coverage=coverage, tried=tried,
+        deviation=deviation_of(deviation, mesh.diagonal, pattern.amplitude), reasons=[bad.diagnosis, *report.reasons])
     return Result(recipe, report, zigzagged=bad.start.structure, structure=structure)

@@ -41,15 +41,12 @@ def layout(
     quiet
         Print nothing.
     """
-    import numpy as np
-
     from plisse.cli.console import progress
     from plisse.draw.candidates import write_candidates
     from plisse.errors import PlisseError
     from plisse.geometry.graph import GraphSurface
     from plisse.io.atomic import require_writable, written_together
-    from plisse.reconstruction import reference_surface
-    from plisse.solve.whole_surface import whole_surface
+    from plisse.reconstruction import laid_out_over, reference_surface
 
     if count < 1:
         raise PlisseError(f"--count {count} leaves nothing to try; give a number from 1")
@@ -62,13 +59,8 @@ def layout(
     if not isinstance(surface, GraphSurface):
         raise PlisseError(f"{file} has a guide, a fan, or a surface that is no graph over its mean plane, so layouts are "
                           "not searched for; run plisse make")
-    pattern = recipe.pattern
     with progress(quiet) as advance:
-        found = whole_surface(
-            mesh, surface, width=pattern.width, amplitude=pattern.amplitude, overhang=recipe.surface.overhang,
-            theta=None if pattern.theta is None else float(np.radians(pattern.theta)),
-            centre=None if recipe.surface.centre is None else np.array(recipe.surface.centre),
-            candidates=count, progress=advance)
+        found = laid_out_over(recipe, mesh, surface, count, advance)
     chosen = found.candidates.index(found.best)
     with written_together(directory, owned=FILES) as stage:
         write_candidates(found.candidates, chosen, mesh, surface, stage / "candidates.png", title=Path(file).name)
