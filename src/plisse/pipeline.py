@@ -11,7 +11,7 @@ from plisse.errors import Infeasible
 from plisse.io.designs import design_from_dict, read_design
 from plisse.layout.guiding import Guiding, guiding
 from plisse.outcomes import broken_down, way_of
-from plisse.recipe import Design, SurfaceDesign
+from plisse.recipe import Curve, Design, March, SurfaceDesign
 from plisse.result import Report, Result
 from plisse.solve.attempt import Start
 from plisse.solve.closed_form import closed_form
@@ -19,8 +19,10 @@ from plisse.solve.cutting import best_cut
 from plisse.solve.energies import Guides
 from plisse.solve.flatten import flatten, laid_out
 from plisse.solve.forecast import forecast
+from plisse.solve.marching import marched_design
 from plisse.solve.paper import solve_paper
 from plisse.solve.portfolio import GENERAL, PRINCIPAL, SECOND_CHANCE, Way, solve
+from plisse.solve.workspace import Workspace
 from plisse.solve.zigzag import zigzag
 from plisse.stopwatch import Stopwatch
 from plisse.structure.pleated import PleatedStructure
@@ -31,11 +33,12 @@ __all__ = ["design"]
 Progress = Callable[[str, float], None]
 
 
-def design(recipe: Design | SurfaceDesign | dict | str | Path, *, progress: Progress | None = None) -> Result:
+def design(recipe: Design | SurfaceDesign | dict | str | Path, *, progress: Progress | None = None,
+           workspace: Workspace | None = None) -> Result:
     """The structure that a recipe asks for, with the pattern it follows and the report that proves it.
 
     `recipe` is a Design, nested dictionaries as in TOML, or the path of a design file. `progress(stage, fraction)` is
-    called as work goes on. Raises InvalidDesign for impossible recipes; geometry that breaks down on the way is
+    called as work goes on; designs of one size that share a `workspace` are solved faster. Raises InvalidDesign for impossible recipes; geometry that breaks down on the way is
     reported (status "infeasible"), not raised.
     """
     recipe = _checked(recipe)
@@ -44,7 +47,9 @@ def design(recipe: Design | SurfaceDesign | dict | str | Path, *, progress: Prog
         return reconstructed(recipe, watch)
     if recipe.closed_form is not None:
         return _by_formula(recipe, watch)
-    assert recipe.curve is not None  # a checked recipe without closed form has both
+    assert recipe.curve is not None  # a checked recipe without closed form has it
+    if recipe.march is not None:
+        return _by_march(recipe, recipe.curve, recipe.march, watch)
     assert recipe.pattern is not None
     watch.start("evolve", 0.0)
     try:
@@ -53,26 +58,44 @@ def design(recipe: Design | SurfaceDesign | dict | str | Path, *, progress: Prog
         return broken_down(recipe, [str(error)], watch)
     watch.start("solve", 0.2)
     zigzagged = zigzag(guide.pattern.resampled(guide.samples), guide.amplitude)
-    return (_by_the_paper if recipe.solve.method == "paper" else _exactly)(recipe, guide, zigzagged, watch)
+    if recipe.solve.method == "paper":
+        return _by_the_paper(recipe, guide, zigzagged, watch)
+    return _exactly(recipe, guide, zigzagged, watch, workspace or Workspace())
 
 
 def _by_formula(recipe: Design, watch: Stopwatch) -> Result:
     """A structure in closed form: nothing is solved, only laid flat and measured."""
     watch.start("construct", 0.0)
-    structure = closed_form(recipe.closed_form)
+    return _constructed(recipe, closed_form(recipe.closed_form), "closed form", [], watch)
+
+
+def _by_march(recipe: Design, curve: Curve, march: March, watch: Stopwatch) -> Result:
+    """An explicit principal structure (§2.4): exact by construction, as far as its strips live."""
+    watch.start("construct", 0.0)
+    try:
+        marched = marched_design(curve, march)
+    except Infeasible as error:
+        return broken_down(recipe, [str(error)], watch)
+    return _constructed(recipe, marched.structure, "march", marched.notes, watch)
+
+
+def _constructed(recipe: Design, structure: PleatedStructure, method: str, notes: list[str], watch: Stopwatch) -> Result:
+    """The result of a structure that is exact without a solver, laid flat and measured."""
     watch.start("flatten", 0.5)
     structure = flatten(structure, best_cut(structure, recipe.solve.cut))
     watch.start("measure", 0.8)
     report = assess(structure, principal=True, units=recipe.units)
-    report = msgspec.structs.replace(report, method="closed form", seconds=watch.stop(), design=recipe.to_dict())
+    report = msgspec.structs.replace(report, method=method, warnings=notes + overlap_notes(report), seconds=watch.stop(),
+                                     design=recipe.to_dict())
     return Result(recipe, report, structure=structure)
 
 
-def _exactly(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, watch: Stopwatch) -> Result:
+def _exactly(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, watch: Stopwatch,
+             workspace: Workspace) -> Result:
     """The best of the portfolio, to machine precision where the geometry allows it."""
     ahead = forecast(guide.pattern, guide.amplitude, recipe.solve.principal)
     foreseen = ahead.warnings()
-    outcome = solve(_plans(recipe, guide))
+    outcome = solve(_plans(recipe, guide, workspace))
     best = outcome.best
     if best.attempt.vertices is None:
         return broken_down(recipe, [best.attempt.message, *foreseen], watch, guide, zigzagged)
@@ -125,19 +148,19 @@ def _notes(start: Start, guide: Guiding) -> list[str]:
             "closes exactly only for odd numbers"]
 
 
-def _plans(recipe: Design, guide: Guiding) -> Iterator[tuple[Start, tuple[Way, ...]]]:
+def _plans(recipe: Design, guide: Guiding, workspace: Workspace) -> Iterator[tuple[Start, tuple[Way, ...]]]:
     """The pattern as designed, then patterns whose binormals are smoothed differently, then an odd number of samples."""
     assert recipe.curve is not None
     assert recipe.pattern is not None
     amplitude, principal = guide.amplitude, recipe.solve.principal
     ways = PRINCIPAL if principal else GENERAL
-    yield Start(guide.pattern, amplitude, guide.samples, principal), ways
+    yield Start(guide.pattern, amplitude, guide.samples, principal, workspace=workspace), ways
     for factor in (2.0, 0.5, 4.0):
         try:
             other = guiding(recipe.curve, recipe.pattern, smoothing_factor=factor)
         except Infeasible:
             continue
         label = f"binormals smoothed {factor:g} times as far"
-        yield Start(other.pattern, amplitude, guide.samples, principal, label), SECOND_CHANCE
+        yield Start(other.pattern, amplitude, guide.samples, principal, label, workspace), SECOND_CHANCE
     if principal and recipe.is_closed and guide.samples % 2 == 0:
-        yield Start(guide.pattern, amplitude, guide.samples + 1, principal, "one sample more, to close"), ways
+        yield Start(guide.pattern, amplitude, guide.samples + 1, principal, "one sample more, to close", workspace), ways

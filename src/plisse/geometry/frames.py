@@ -3,10 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import solveh_banded
+from scipy.linalg import lapack
 
 from plisse.errors import Infeasible
-from plisse.geometry.polyline import segments, tangents
+from plisse.geometry import components
+from plisse.geometry.polyline import segments
 from plisse.geometry.vectors import dot, norm, unit
 
 __all__ = ["Frame", "curvature", "curvature_vectors", "regularised_frame", "torsion"]
@@ -58,19 +59,35 @@ def regularised_frame(points: np.ndarray, closed: bool, smoothing: float) -> Fra
     """Frame whose binormal minimises Σ κ²|E − e3|² + mean(κ²) ℓ⁴ |E″|², for any resolution alike.
 
     `smoothing` is the length ℓ in model units. The weights κ² let E pass through weak inflections (§3.2's
-    regulariser made independent of the number of points).
+    regulariser made independent of the number of points). Evolution asks for it hundreds of times.
     """
-    vectors = curvature_vectors(points, closed)
-    weight = dot(vectors, vectors)
     before, after = segments(points, closed)
-    step = 0.5 * float((norm(before) + norm(after)).mean())
+    before, after = np.ascontiguousarray(before.T), np.ascontiguousarray(after.T)
+    square_before, square_after = components.dot(before, before), components.dot(after, after)
+    step = 0.5 * float((np.sqrt(square_before) + np.sqrt(square_after)).mean())
+    chord = before + after
+    bent = 2 / np.sqrt(square_before * square_after * components.dot(chord, chord)) * components.cross(before, after)
+    along = before / square_before + after / square_after
+    along /= components.norm(along)
+    vectors, tangent = (bent, along) if closed else _with_ends(bent, along, before[:, 0], after[:, -1])
+    weight = components.dot(vectors, vectors)
     mean = weight.mean() if closed else weight[1:-1].mean()
     if not mean > 0:
         raise Infeasible("a guiding curve becomes straight and has no side to evolve to; bend the seed curve more")
-    smooth = _solve_banded(weight, (smoothing / step) ** 4 * mean, vectors * np.sqrt(weight)[:, None], closed)
-    tangent = tangents(points, closed)
-    binormal = unit(smooth - dot(smooth, tangent)[:, None] * tangent)
-    return Frame(tangent, np.cross(binormal, tangent), binormal)
+    smooth = _solve_banded(weight, (smoothing / step) ** 4 * mean, (vectors * np.sqrt(weight)).T, closed).T
+    binormal = smooth - components.dot(smooth, tangent) * tangent
+    binormal /= components.norm(binormal)
+    return Frame(tangent.T, components.cross(binormal, tangent).T, binormal.T)
+
+
+def _with_ends(bent: np.ndarray, along: np.ndarray, first: np.ndarray, last: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Curvature vectors and tangents (3, N) continued to open ends: no curvature, and tangents of the end circles."""
+    count = along.shape[1] + 2
+    vectors, tangent = np.zeros((3, count)), np.empty((3, count))
+    vectors[:, 1:-1], tangent[:, 1:-1] = bent, along
+    for place, edge, inner in ((0, first, along[:, 0]), (-1, last, along[:, -1])):
+        tangent[:, place] = 2 * (inner @ edge) / (edge @ edge) * edge - inner
+    return vectors, tangent
 
 
 def _solve_banded(weight: np.ndarray, stiffness: float, right: np.ndarray, closed: bool) -> np.ndarray:
@@ -79,7 +96,7 @@ def _solve_banded(weight: np.ndarray, stiffness: float, right: np.ndarray, close
     if not closed:
         bands = stiffness * _second_difference_bands(count)
         bands[2] += weight
-        return solveh_banded(bands, right, check_finite=False)
+        return _definite(bands, right)
     order = _folded(count)
     rank = np.argsort(order)
     bands = np.zeros((5, count))
@@ -88,7 +105,15 @@ def _solve_banded(weight: np.ndarray, stiffness: float, right: np.ndarray, close
         a, b = rank[i], rank[(i + shift) % count]
         np.add.at(bands, (4 - np.abs(a - b), np.maximum(a, b)), stiffness * value)
     bands[4] += weight[order]
-    return solveh_banded(bands, right[order], check_finite=False)[rank]
+    return _definite(bands, right[order])[rank]
+
+
+def _definite(bands: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Solution of a positive definite system given by its upper bands."""
+    _, solution, info = lapack.dpbsv(bands, right)
+    if info:
+        raise Infeasible("binormals of a guiding curve are not determined; its points coincide or are not finite")
+    return solution
 
 
 def _second_difference_bands(count: int) -> np.ndarray:

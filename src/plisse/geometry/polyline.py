@@ -6,8 +6,8 @@ from scipy.spatial import cKDTree
 
 from plisse.geometry.vectors import dot, norm, unit
 
-__all__ = ["arc_length", "closest_on_polyline", "distance_to_polyline", "interpolating_spline", "sample_evenly",
-           "segments", "tangents"]
+__all__ = ["arc_length", "closest_on_polyline", "closest_on_polylines", "distance_to_polyline", "distance_to_polylines",
+           "interpolating_spline", "sample_evenly", "segments", "tangents"]
 
 
 def arc_length(points: np.ndarray, closed: bool = False) -> np.ndarray:
@@ -56,33 +56,61 @@ def sample_evenly(points: np.ndarray, count: int, closed: bool = False) -> np.nd
     return spline(np.interp(np.linspace(0, length[-1], count, endpoint=not closed), length, fine))
 
 
-def closest_on_polyline(points: np.ndarray, line: np.ndarray, closed: bool = False,
-                        extended: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Start and end (N,) of the segment closest to each point, and the foot's fraction in it.
+def closest_on_polylines(points: np.ndarray, lines: np.ndarray, closed: bool = False,
+                         extended: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Start and end (m, n) of the segment of its own line closest to each point (m, n, 3), and the foot's fraction in it.
 
-    Only the two segments at the nearest vertex are tried. `extended` lets feet lie beyond the ends of open lines.
+    Lines are (m, k, 3). Only the two segments at the nearest vertex are tried. `extended` lets feet lie beyond the ends
+    of open lines.
     """
-    count = len(line)
-    nearest = cKDTree(line).query(points)[1]
+    count = lines.shape[1]
+    nearest = _nearest(points, lines)
     options = []
     for first in (nearest - 1, nearest):
         start = first % count if closed else np.clip(first, 0, count - 2)
         end = (start + 1) % count
-        along = line[end] - line[start]
+        origin = _picked(lines, start)
+        along, offset = _picked(lines, end) - origin, points - origin
         low = np.where((start == 0) & extended & (not closed), -np.inf, 0.0)
         high = np.where((start == count - 2) & extended & (not closed), np.inf, 1.0)
-        fraction = np.clip(dot(points - line[start], along) / dot(along, along), low, high)
-        gap = points - line[start] - fraction[:, None] * along
+        fraction = np.clip(dot(offset, along) / dot(along, along), low, high)
+        gap = offset - fraction[..., None] * along
         options.append((start, end, fraction, dot(gap, gap)))
     nearer = options[0][3] < options[1][3]
     start, end, fraction = (np.where(nearer, a, b) for a, b in zip(options[0][:3], options[1][:3], strict=True))
     return start, end, fraction
 
 
+def closest_on_polyline(points: np.ndarray, line: np.ndarray, closed: bool = False) -> tuple[np.ndarray, ...]:
+    """Start and end (N,) of the segment of one line (k, 3) closest to each point (N, 3), and the foot's fraction in it."""
+    return tuple(part[0] for part in closest_on_polylines(points[None], line[None], closed))
+
+
+def distance_to_polylines(points: np.ndarray, lines: np.ndarray, closed: bool = False) -> np.ndarray:
+    """Distances (m, n) of points (m, n, 3) from their own polylines (m, k, 3), open ends extended by their tangents."""
+    start, end, fraction = closest_on_polylines(points, lines, closed, extended=True)
+    origin = _picked(lines, start)
+    return norm(points - origin - fraction[..., None] * (_picked(lines, end) - origin))
+
+
 def distance_to_polyline(points: np.ndarray, line: np.ndarray, closed: bool = False) -> np.ndarray:
-    """Distances (N,) of points from a polyline whose open ends are extended by their tangents."""
-    start, end, fraction = closest_on_polyline(points, line, closed, extended=True)
-    return norm(points - line[start] - fraction[:, None] * (line[end] - line[start]))
+    """Distances (N,) of points (N, 3) from one polyline (k, 3) whose open ends are extended by their tangents."""
+    return distance_to_polylines(points[None], line[None], closed)[0]
+
+
+def _nearest(points: np.ndarray, lines: np.ndarray) -> np.ndarray:
+    """Nearest vertex (m, n) of its own line for each point: one tree, lines kept apart along a fourth axis."""
+    apart = 4 * (1 + float(max(np.abs(points).max(), np.abs(lines).max())))
+    levels = apart * np.arange(len(lines))[:, None, None]
+    lifted = [np.concatenate([part, np.broadcast_to(levels, (*part.shape[:2], 1))], axis=2).reshape(-1, 4)
+              for part in (points, lines)]
+    found = cKDTree(lifted[1]).query(lifted[0])[1]
+    return found.reshape(points.shape[:2]) % lines.shape[1]
+
+
+def _picked(lines: np.ndarray, index: np.ndarray) -> np.ndarray:
+    """Vertices (m, n, 3) of lines (m, k, 3), each from its own line."""
+    return np.take_along_axis(lines, index[..., None], axis=1)
 
 
 def tangents(points: np.ndarray, closed: bool = False) -> np.ndarray:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from plisse.geometry.polyline import distance_to_polyline
+from plisse.geometry.polyline import distance_to_polylines
 
 __all__ = ["crease_deviation"]
 
@@ -12,5 +12,4 @@ def crease_deviation(creases: np.ndarray, guides: np.ndarray, closed: bool = Fal
 
     Open guides are extended by their end tangents, so that sliding along a crease is no deviation.
     """
-    return np.array([distance_to_polyline(crease, guide, closed)
-                     for crease, guide in zip(creases, guides, strict=True)])
+    return distance_to_polylines(creases, guides, closed)

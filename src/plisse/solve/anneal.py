@@ -8,6 +8,7 @@ import numpy as np
 from plisse.leastsquares.kernel import Term
 from plisse.leastsquares.problem import Problem
 from plisse.solve.energies import developability, displacement_fairness, flat_foldability, planarity
+from plisse.solve.workspace import Workspace
 from plisse.structure.topology import Topology
 
 __all__ = ["WEIGHTS", "anneal"]
@@ -18,18 +19,23 @@ LONGEST_STEP = 0.5
 
 def anneal(topology: Topology, start: np.ndarray, *, rest: np.ndarray | None = None, principal: bool = False,
            weights: Sequence[float] = WEIGHTS, steps: int = 1,
-           fairness: Mapping[str, float] = MappingProxyType({}), extra: Sequence[Term] = ()) -> np.ndarray:
+           fairness: Mapping[str, float] = MappingProxyType({}), extra: Sequence[Term] = (),
+           workspace: Workspace | None = None) -> np.ndarray:
     """Vertices (3, V) after Gauss–Newton steps from `start`, near the constraints and fair against `rest`.
 
     Coordinates are in units of the mean edge length. Every weight of the fairness terms gets `steps` steps, each no
-    longer than half an edge; `fairness` is passed on to `displacement_fairness`, `extra` terms fade out with it.
+    longer than half an edge; `fairness` is passed on to `displacement_fairness`, `extra` terms fade out with it;
+    what a `workspace` holds for terms of the same names on the same topology is used again.
     """
     conditions: list[Term] = [planarity(topology), *developability(topology)]
     if principal:
         conditions += flat_foldability(topology)
     fair = [*displacement_fairness(topology, start if rest is None else rest, **fairness), *extra]
     key = np.arange(topology.vertex_count) if topology.ordering is None else topology.ordering
-    problem = Problem(conditions + fair, {"vertices": (3, key)}).prepare()
+    terms = conditions + fair
+    names = tuple(term.name for term in terms)
+    problem = (workspace or Workspace()).held(
+        ("relaxation", topology, names), lambda: Problem(terms, {"vertices": (3, key)}).prepare())
     blocks = {"vertices": start}
     for weight in weights:
         scaled = [Term(term.name, term.kernel, term.arguments, weight * term.weight, term.data) for term in fair]

@@ -1,12 +1,12 @@
 """Where a solver starts and what an attempt comes to."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
+from plisse.solve.workspace import Workspace
 from plisse.solve.zigzag import zigzag_curves
-from plisse.structure.grid import grid
 from plisse.structure.pattern import Pattern
 from plisse.structure.topology import Topology
 
@@ -15,13 +15,17 @@ __all__ = ["Attempt", "Start"]
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """A pattern (at its own resolution), the amplitude d, the number of samples wanted, and the property wanted."""
+    """A pattern (at its own resolution), the amplitude d, the number of samples wanted, and the property wanted.
+
+    Starts that share a `workspace` share topologies and sparsity patterns.
+    """
 
     pattern: Pattern
     amplitude: float
     samples: int
     principal: bool = False
     label: str = ""
+    workspace: Workspace = field(default_factory=Workspace)
 
     @cached_property
     def topology(self) -> Topology:
@@ -30,8 +34,7 @@ class Start:
 
     def grid(self, samples: int) -> Topology:
         """The same grid with another number of samples."""
-        return grid(self.pattern.creases, samples, closed_creases=self.pattern.closed,
-                    closed_family=self.pattern.closed_family)
+        return self.workspace.grid(self.pattern.creases, samples, self.pattern.closed, self.pattern.closed_family)
 
     def guides(self, samples: int) -> np.ndarray:
         """Zigzag curves (m, samples, 3) that the creases should follow, in model units."""

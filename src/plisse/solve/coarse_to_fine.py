@@ -9,7 +9,6 @@ from plisse.geometry.vectors import norm
 from plisse.leastsquares import NotPositiveDefinite
 from plisse.solve.anneal import WEIGHTS, anneal
 from plisse.solve.attempt import Attempt, Start
-from plisse.solve.constraints import Constraints
 from plisse.solve.polish import polish
 from plisse.structure.pattern import interpolate_along
 
@@ -39,10 +38,10 @@ class CoarseToFine:
                 vertices = level.rest if displacement is None else level.displaced(displacement)
                 if displacement is None:
                     vertices = anneal(level.topology, vertices, principal=start.principal, steps=self.steps,
-                                      fairness=self.fairness)
+                                      fairness=self.fairness, workspace=start.workspace)
                     iterations += self.steps * len(WEIGHTS)
                 last = samples == start.samples
-                done = polish(Constraints(level.topology, start.principal), vertices, chord=last and samples > 60,
+                done = polish(start.workspace.constraints(level.topology, start.principal), vertices, chord=last and samples > 60,
                               steps=12 if last else 8 if displacement is None else 2)
                 iterations += len(done.history) - 2
                 history += done.history[:-1]
