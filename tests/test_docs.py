@@ -43,7 +43,8 @@ def test_files_named_in_the_docs_exist(page):
     text = page.read_text(encoding="utf-8")
     for target in re.findall(r"\]\((?!http)([^)#]+)\)", text):
         assert (page.parent / target).exists(), target
-    for name in re.findall(r"`((?:geometry|structure|measure|layout|solve|leastsquares|io|draw|cli)/[\w/]+\.py)", text):
+    rooms = "geometry|structure|measure|layout|solve|leastsquares|transform|io|draw|cli"
+    for name in re.findall(rf"`((?:{rooms})/[\w/]+\.py)", text):
         assert (ROOT / "src" / "plisse" / name).exists(), name
 
 

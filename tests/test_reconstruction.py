@@ -105,15 +105,3 @@ def test_an_edited_file_with_the_same_faces_is_followed(tmp_path, roof):
     assert np.abs(z - before - lift).mean() < 0.5 * np.abs(z - before).mean()
     with pytest.raises(InvalidDesign, match="faces that are not"):
         plisse.design(tmp_path / "c.toml")
-
-
-def test_a_guide_needs_what_it_needs():
-    base = {"height": "0.1*x*y", "x": [-1, 1], "y": [-1, 1]}
-    for surface, pattern, expected in (
-            ({"guide": [[0, 0, 0], [1, 0, 0]]}, {}, "pattern.theta is missing"),
-            ({"fan": [0, 0, 0]}, {"theta": 50, "amplitude": 0.1, "creases": 20}, "fan_radius"),
-            ({"fan": [0, 0, 0], "guide": [[0, 0, 0], [1, 0, 0]]}, {}, "both"),
-            ({}, {"initial": "normal"}, "surface.centre"),
-            ({"edited_file": "x.obj"}, {}, "surface.file")):
-        with pytest.raises(InvalidDesign, match=expected):
-            plisse.design({"surface": {**base, **surface}, "pattern": pattern})

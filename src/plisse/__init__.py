@@ -16,12 +16,13 @@ if TYPE_CHECKING:
     from plisse.pipeline import design
     from plisse.recipe import Design
     from plisse.result import Report, Result
+    from plisse.session import Session
     from plisse.structure.pleated import PleatedStructure
 
-__all__ = ["Design", "PleatedStructure", "Report", "Result", "__version__", "design"]
+__all__ = ["Design", "PleatedStructure", "Report", "Result", "Session", "__version__", "design"]
 
 _HOMES = {"Design": "plisse.recipe", "PleatedStructure": "plisse.structure.pleated", "Report": "plisse.result",
-          "Result": "plisse.result", "design": "plisse.pipeline"}
+          "Result": "plisse.result", "Session": "plisse.session", "design": "plisse.pipeline"}
 
 
 def __getattr__(name: str):

@@ -11,6 +11,7 @@ from plisse.measure.sectors import angle_defect
 from plisse.measure.verdict import EXACT, FAR
 from plisse.recipe import MILLIMETRES
 from plisse.result import Interval, Report, Sheet, Spread
+from plisse.structure.lines import joined
 from plisse.structure.place import place_of
 from plisse.structure.pleated import PleatedStructure
 
@@ -27,7 +28,7 @@ def assess(structure: PleatedStructure, *, principal: bool = False, guides: np.n
     `principal` says whether the principal defect belongs to the status; `guides` (m, n, 3) are the curves that the
     creases should follow, `amplitude` the unit of their deviation. The pipeline adds timings and the way there.
     """
-    found, inner = measure(structure), ~structure.topology.is_boundary
+    found, inner = measure(structure), structure.topology.is_inner
     defects = [spread(found.planarity), spread(found.angle[inner])]
     kawasaki = spread(found.principal[inner])
     exact = max(defect.max for defect in [*defects, *([kawasaki] if principal else [])]) <= EXACT
@@ -49,6 +50,7 @@ def assess(structure: PleatedStructure, *, principal: bool = False, guides: np.n
         crease_deviation=deviation,
         inverted_faces=int(found.inverted.sum()),
         self_intersections=len(found.intersections),
+        seams=len(joined(structure.topology.seams)),
         isometry=found.isometry,
         development=_sheet(structure, found, units),
         units=units,
@@ -65,7 +67,7 @@ def start_defects(zigzagged: PleatedStructure) -> dict[str, Spread]:
     """Planarity and angle defects of a zigzag before it is solved."""
     topology, vertices = zigzagged.topology, zigzagged.vertices
     return {"planarity": spread(planarity_defect(topology, vertices)),
-            "angle_defect": spread(angle_defect(topology, vertices)[~topology.is_boundary])}
+            "angle_defect": spread(angle_defect(topology, vertices)[topology.is_inner])}
 
 
 def overlap_notes(report: Report) -> list[str]:
@@ -171,4 +173,4 @@ def _sheet(structure: PleatedStructure, found: Measurements, units: str) -> Shee
     width, height = (float(x) for x in scale * np.ptp(structure.development, axis=0))
     place = found.overlap.place
     return Sheet(found.overlap.overlaps, (width, height),
-                 None if place is None else (scale * place[0], scale * place[1]))
+                 None if place is None else (scale * place[0], scale * place[1]), structure.cut.topology.components)

@@ -19,3 +19,7 @@ class InvalidStructure(PlisseError, ValueError):
 
 class Infeasible(PlisseError, ArithmeticError):
     """Geometry that breaks down on the way: a pattern that degenerates, a strip that dies."""
+
+
+class MissingExtra(PlisseError, ImportError):
+    """An optional library that is not installed, with the command that installs it."""

@@ -6,6 +6,7 @@ from pathlib import Path
 import msgspec
 import numpy as np
 
+from plisse.arrangements import arranged_strips
 from plisse.assess import assess, overlap_notes, start_defects
 from plisse.errors import Infeasible
 from plisse.io.designs import design_from_dict, read_design
@@ -27,6 +28,7 @@ from plisse.solve.zigzag import zigzag
 from plisse.stopwatch import Stopwatch
 from plisse.structure.pleated import PleatedStructure
 from plisse.surfaces import reconstructed
+from plisse.varied import varied
 
 __all__ = ["design"]
 
@@ -43,8 +45,16 @@ def design(recipe: Design | SurfaceDesign | dict | str | Path, *, progress: Prog
     """
     recipe = _checked(recipe)
     watch = Stopwatch(progress)
+    if recipe.strips is not None:
+        return arranged_strips(recipe, watch)
     if isinstance(recipe, SurfaceDesign):
         return reconstructed(recipe, watch)
+    result = _pleated(recipe, watch, workspace)
+    return result if recipe.parallel is None else varied(result, recipe.parallel)
+
+
+def _pleated(recipe: Design, watch: Stopwatch, workspace: Workspace | None) -> Result:
+    """The structure of a closed form, a march, or a curve and pattern."""
     if recipe.closed_form is not None:
         return _by_formula(recipe, watch)
     assert recipe.curve is not None  # a checked recipe without closed form has it

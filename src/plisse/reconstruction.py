@@ -15,26 +15,27 @@ from plisse.geometry.handles import Handle, follow, moved
 from plisse.geometry.height_field import HeightField
 from plisse.geometry.jets import JetSurface
 from plisse.geometry.mesh import ReferenceMesh, grid_mesh
+from plisse.geometry.parametric import ParametricSurface
 from plisse.geometry.surface import Surface as Reference
+from plisse.geometry.vectors import dot
 from plisse.io.meshes import read_mesh
 from plisse.layout.coverage import AreaSamples, covered
-from plisse.layout.family_columns import fan_pattern, guided_pattern
-from plisse.layout.guides import guide_through
+from plisse.layout.rows import ChartedSurface
 from plisse.measure.inclination import crease_inclinations
 from plisse.measure.mid_surface import MidSurfaceDeviation, mid_surface_deviation
+from plisse.measure.planarity import face_normals
 from plisse.measure.regularity import OPENING_RANGE
-from plisse.recipe import Surface, SurfaceDesign, SurfacePattern
+from plisse.recipe import Surface, SurfaceDesign
 from plisse.result import Deviation, Interval
-from plisse.solve.attempt import Start
 from plisse.solve.edited import edited_structure
+from plisse.solve.finer import Sampled, finer
 from plisse.solve.whole_surface import FOLDABLE, REACH, WholeSurface, whole_surface
 from plisse.structure.pleated import PleatedStructure
 
-__all__ = ["deviation_of", "edited_vertices", "guided_start", "inclinations_of", "laid_out_over", "lies_over",
-           "reference_surface", "solved_again"]
+__all__ = ["deviation_of", "edited_vertices", "inclinations_of", "laid_out_over", "lies_over",
+           "overhang_notes", "reference_surface", "sampled", "solved_again"]
 
 GRAPH = 0.9999
-FAN_GAPS = (0.5, 2.0)  # where a fan begins and ends, in gaps of a flat disk
 
 CELLS = 60
 
@@ -42,17 +43,25 @@ CELLS = 60
 def reference_surface(section: Surface) -> tuple[ReferenceMesh, Reference]:
     """The mesh of a surface section and the smooth surface that belongs to it.
 
-    Formulas stand for themselves; meshes that are graphs over their mean plane get a smooth graph, others jets. Raises
-    InvalidMesh or InvalidDesign for files and formulas that are no surface.
+    Along guides formulas stand for themselves; meshes that are graphs over their mean plane get a smooth graph, others
+    jets. Over whole surfaces those that are no graphs are flattened. Raises InvalidMesh or InvalidDesign for files and
+    formulas that are no surface, Infeasible for whole surfaces that cannot be flattened.
     """
-    if section.torus is not None:
+    if section.torus is not None and section.is_guided:
         torus = Torus(*section.torus)
         return torus.mesh(CELLS), torus
-    if section.height is not None and (section.guide is not None or section.fan is not None):
+    if section.height is not None and section.is_guided:
         field = HeightField(section.height, section.x, section.y)
         return field.mesh(CELLS), field
     mesh = _mesh(section)
-    return mesh, GraphSurface(mesh) if facing_up(mesh) >= GRAPH else JetSurface(mesh)
+    if section.is_guided and facing_up(mesh) < GRAPH:
+        return mesh, JetSurface(mesh)
+    return mesh, _charted(mesh)
+
+
+def _charted(mesh: ReferenceMesh) -> ChartedSurface:
+    """A smooth surface with a chart, for rows over all of it."""
+    return GraphSurface(mesh) if facing_up(mesh) >= GRAPH else ParametricSurface(mesh)
 
 
 def _mesh(section: Surface) -> ReferenceMesh:
@@ -60,6 +69,8 @@ def _mesh(section: Surface) -> ReferenceMesh:
         return read_mesh(section.file)
     if section.height is not None:
         return HeightField(section.height, section.x, section.y).mesh(CELLS)
+    if section.torus is not None:
+        return Torus(*section.torus).mesh(CELLS)
     assert section.radius is not None
     along = np.linspace(*section.x, CELLS)
     radius = height_expression(section.radius)(along, 0 * along)[0]
@@ -72,35 +83,13 @@ def _mesh(section: Surface) -> ReferenceMesh:
     return grid_mesh(points, (True, False))
 
 
-def guided_start(section: Surface, recipe: SurfacePattern, mesh: ReferenceMesh, surface: Reference) -> Start:
-    """Creases of constant inclination along the guide, or around the point, of a surface section.
-
-    Raises Infeasible where the family falls into disarray.
-    """
-    assert recipe.theta is not None
-    assert recipe.amplitude is not None
-    if section.fan is not None:
-        assert recipe.creases is not None
-        assert section.fan_radius is not None
-        pattern = fan_pattern(surface, section.fan, theta=recipe.theta, amplitude=recipe.amplitude, creases=recipe.creases,
-                              radius=section.fan_radius, samples=recipe.samples, length=section.reach, beyond=section.beyond,
-                              gaps=FAN_GAPS)
-    else:
-        assert section.guide is not None
-        assert recipe.width is not None
-        guide = guide_through(surface, section.guide, section.guide_closed) if section.guide_closed else section.guide
-        pattern = guided_pattern(surface, mesh, guide, theta=recipe.theta, width=recipe.width, amplitude=recipe.amplitude,
-                                 creases=recipe.creases, samples=recipe.samples, closed_family=section.guide_closed,
-                                 tuned=section.tuned, length=section.reach, beyond=section.beyond)
-    return Start(pattern, recipe.amplitude, pattern.samples)
-
-
-def laid_out_over(recipe: SurfaceDesign, mesh: ReferenceMesh, surface: GraphSurface, candidates: int = 20,
+def laid_out_over(recipe: SurfaceDesign, mesh: ReferenceMesh, surface: ChartedSurface, candidates: int = 20,
                   progress: Callable[[str, float], None] | None = None) -> WholeSurface:
     """The best of the layouts of fitted inclination that a design asks for; raises Infeasible where none is solved."""
     section, pattern = recipe.surface, recipe.pattern
     return whole_surface(
-        mesh, surface, width=pattern.width, amplitude=pattern.amplitude, overhang=section.overhang, candidates=candidates,
+        mesh, surface, width=pattern.width, amplitude=pattern.amplitude, overhang=bool(section.overhang),
+        above=section.side == "above", inside=section.boundary, candidates=candidates, seams=section.seams,
         theta=None if pattern.theta is None else float(np.radians(pattern.theta)),
         centre=None if section.centre is None else np.array(section.centre), progress=progress)
 
@@ -130,7 +119,7 @@ def solved_again(found: WholeSurface, mesh: ReferenceMesh, vertices: np.ndarray,
     Raises Infeasible, saying how far it got.
     """
     edited = ReferenceMesh(vertices, mesh.triangles)
-    surface = GraphSurface(edited)
+    surface = _charted(edited)
     rest = follow(found.structure.vertices, mesh, vertices)
     least = OPENING_RANGE[0] if overhang else FOLDABLE
     structure = edited_structure(found.structure, rest, normals=surface.project(rest).normals, least_opening=least).structure
@@ -142,6 +131,25 @@ def solved_again(found: WholeSurface, mesh: ReferenceMesh, vertices: np.ndarray,
              f"{np.degrees(inclination.max()):.0f}°",)
     return edited, replace(found, structure=structure, inclination=inclination, coverage=coverage, notes=notes,
                            deviation=mid_surface_deviation(surface, structure.vertices, quads))
+
+
+def sampled(found: WholeSurface, mesh: ReferenceMesh, surface: Reference, samples: int, overhang: bool) -> WholeSurface:
+    """The same structure with at least so many columns, or with as many as it stays exact and regular with."""
+    layout, least = found.best.layout, OPENING_RANGE[0] if overhang else FOLDABLE
+    net, before = layout.net, found.best.solved
+    if before.grid.shape[1] >= samples:
+        return found
+    fine = finer(Sampled(before.grid, before.vertices, layout.zigzag, net.normals, net.outward), samples, least)
+    structure = PleatedStructure(fine.grid.topology, fine.vertices)
+    normals, outward = (field.reshape(-1, 3)[fine.grid.used] for field in (fine.normals, fine.outward))
+    inclination = crease_inclinations(structure.topology, structure.vertices, normals, outward)
+    coverage, _ = lies_over(structure, mesh, surface, layout.sizes.amplitude)
+    columns = fine.grid.shape[1]
+    notes = () if columns >= samples else (f"pattern.samples = {samples} was not reached: with more than {columns} columns "
+                                           "the structure is not exact and regular any more",)
+    return replace(found, structure=structure, rows=fine.grid.rows, inclination=inclination, coverage=coverage,
+                   notes=found.notes + notes,
+                   deviation=mid_surface_deviation(surface, structure.vertices, structure.topology.quads))
 
 
 def lies_over(structure: PleatedStructure, mesh: ReferenceMesh, surface: Reference,
@@ -158,6 +166,17 @@ def deviation_of(found: MidSurfaceDeviation, diagonal: float, amplitude: float) 
     """Distance of the mid-surface from the reference in three units."""
     return Deviation(found.max, found.mean, found.max / diagonal, found.mean / diagonal, found.max / amplitude,
                      found.mean / amplitude)
+
+
+def overhang_notes(structure: PleatedStructure, surface: Reference) -> list[str]:
+    """Which part of the faces leans over the reference so far that it hides another, and what would keep it from that."""
+    quads = structure.topology.quads
+    below = surface.project(structure.vertices[quads].mean(axis=1)).normals
+    facing = dot(face_normals(structure.topology, structure.vertices), below)
+    share = float(np.mean(facing * np.sign(facing.sum()) < 0))
+    if share == 0:
+        return []
+    return [f"{100 * share:.0f} % of the faces overhang; inclinations below 45° keep pleats from that"]
 
 
 def inclinations_of(found: WholeSurface) -> list[Interval]:

@@ -10,8 +10,10 @@ from plisse.geometry.mesh import ReferenceMesh
 from plisse.recipe import Design, SurfaceDesign
 from plisse.structure.pattern import Pattern
 from plisse.structure.pleated import PleatedStructure
+from plisse.transform.arrangement import Arrangement
+from plisse.transform.variation import Member
 
-__all__ = ["Deviation", "Interval", "Overlay", "Report", "Result", "Sheet", "Spread"]
+__all__ = ["Deviation", "Interval", "Overlay", "Report", "Result", "Sheet", "Spread", "StripEntry"]
 
 
 class Spread(msgspec.Struct, frozen=True):
@@ -29,11 +31,12 @@ class Interval(msgspec.Struct, frozen=True):
 
 
 class Sheet(msgspec.Struct, frozen=True):
-    """The development as a piece of paper."""
+    """The development on paper, in one piece or several; the size is that of all of them as they lie."""
 
     overlaps: bool
     size_mm: tuple[float, float]
     overlap_at_mm: tuple[float, float] | None = None
+    pieces: int = 1
 
 
 class Deviation(msgspec.Struct, frozen=True):
@@ -45,6 +48,19 @@ class Deviation(msgspec.Struct, frozen=True):
     mean_relative: float
     max_amplitudes: float
     mean_amplitudes: float
+
+
+class StripEntry(msgspec.Struct, frozen=True):
+    """One strip of a cutting list: the number of its curve (from 1), sizes in model units, angles to the surface."""
+
+    strip: int
+    length: float
+    width: float
+    curve_length: float
+    faces: int
+    inclination_deg: Interval | None
+    shortest_ruling: float
+    notes: list[str]
 
 
 class Report(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=False):
@@ -63,10 +79,14 @@ class Report(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=False):
     inverted_faces: int | None = None
     self_intersections: int | None = None
     isometry: float | None = None
+    seams: int = 0
+    holes: int | None = None
     coverage: float | None = None
     deviation: Deviation | None = None
     inclination_deg: list[Interval] | None = None
     principal: bool = False
+    edge_scales: Interval | None = None
+    strips: list[StripEntry] = []
     warnings: list[str] = []
     start: dict[str, Spread] = {}
     tried: list[str] = []
@@ -92,7 +112,9 @@ class Overlay:
 class Result:
     """A design, its guiding pattern, the zigzag it started from, the structure and its report.
 
-    `pattern`, `zigzagged` and `structure` are None where the design broke down before they existed.
+    `pattern`, `zigzagged` and `structure` are None where the design broke down before they existed. `family` are the
+    parallel structures on the way to the last one, with their captions; `arrangement` are strips instead of pleats, on
+    `surface` where there is one.
     """
 
     design: Design | SurfaceDesign
@@ -101,6 +123,9 @@ class Result:
     zigzagged: PleatedStructure | None = None
     structure: PleatedStructure | None = None
     overlay: Overlay | None = None
+    family: tuple[Member, ...] = ()
+    arrangement: Arrangement | None = None
+    surface: ReferenceMesh | None = None
 
     @property
     def status(self) -> str:

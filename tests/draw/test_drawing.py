@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from plisse.draw.drawing import crease_pattern
-from plisse.draw.sheet import front_up
+from plisse.draw.drawing import captioned, crease_pattern
 from plisse.errors import InvalidStructure
 from plisse.measure.folds import fold_angles
+from plisse.structure.front import front_up
 from plisse.structure.pleated import PleatedStructure
 
 
@@ -47,3 +47,11 @@ def test_the_front_is_up_and_lengths_survive_mirroring(cones):
 def test_without_development_there_is_nothing_to_draw(cones):
     with pytest.raises(InvalidStructure, match="flatten"):
         crease_pattern(cones.with_vertices(cones.vertices))
+
+
+def test_the_caption_stands_in_the_margin_and_only_where_there_is_room(cones):
+    drawing = crease_pattern(cones, title="fan")
+    text, = captioned(drawing).layer("text").texts
+    assert text.words.startswith("fan") and f"{drawing.size[0]:.1f} × {drawing.size[1]:.1f} mm" in text.words
+    assert 0 < text.at[1] and text.at[1] + text.height < 5
+    assert captioned(crease_pattern(cones, title="long " * 60)).layer("text").texts == ()

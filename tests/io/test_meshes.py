@@ -12,7 +12,7 @@ import trimesh
 from plisse.errors import InvalidMesh, PlisseError
 from plisse.geometry.cleaning import cleaned
 from plisse.geometry.formulas import Cylinder, HeightField, Sphere
-from plisse.geometry.mesh import ReferenceMesh
+from plisse.geometry.mesh import ReferenceMesh, grid_mesh
 from plisse.io.meshes import read_mesh
 
 WAVE = HeightField("0.2 * sin(x) * cos(y)", (-2, 2), (-1, 1)).mesh(12)
@@ -114,6 +114,11 @@ BAD = {
     "absurdly large": ("roof.obj", obj(WAVE.vertices * 1e15, WAVE.triangles), "sensible unit"),
     "beyond all numbers": ("roof.obj", obj(WAVE.vertices * 1e300, WAVE.triangles), "sensible unit"),
     "absurdly small": ("roof.obj", obj(WAVE.vertices * 1e-14, WAVE.triangles), "sensible unit"),
+    "utf-16": ("roof.obj", obj(WAVE.vertices, WAVE.triangles).encode("utf-16"), "not those of such a file"),
+    "cut off in a face": ("roof.obj", obj(WAVE.vertices, WAVE.triangles)[:-3] + "x/y", ""),
+    "glb cut off": ("roof.glb", trimesh.Trimesh(WAVE.vertices, WAVE.triangles).export(file_type="glb")[:300], ""),
+    "binary ply cut off": ("roof.ply", trimesh.Trimesh(WAVE.vertices, WAVE.triangles).export(file_type="ply")[:900], ""),
+    "faces of one vertex": ("roof.obj", obj(WAVE.vertices, [[3, 3, 3]] * 40), "across"),
     "far from the origin": ("roof.obj", obj(moved(WAVE, [1e10, 0, 0]), WAVE.triangles), "move it closer"),
 }
 
@@ -141,6 +146,14 @@ def test_missing_files_and_folders_are_named(tmp_path):
     (tmp_path / "hall.obj").mkdir()
     with pytest.raises(InvalidMesh, match="is a folder"):
         read_mesh(tmp_path / "hall.obj")
+
+
+def test_surfaces_that_cross_themselves_are_meshes_all_the_same(tmp_path):
+    turn, across = np.meshgrid(np.linspace(0, 4.5 * np.pi, 60), np.linspace(-1, 1, 8), indexing="ij")
+    points = np.stack([np.cos(turn), np.sin(2 * turn), across], axis=-1)
+    mesh = grid_mesh(points)
+    (tmp_path / "a.obj").write_text(obj(mesh.vertices, mesh.triangles))
+    assert len(read_mesh(tmp_path / "a.obj").triangles) == len(mesh.triangles)
 
 
 def test_more_than_half_a_million_faces_are_refused():

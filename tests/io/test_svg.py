@@ -2,9 +2,12 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
+import svgelements
 
-from plisse.draw.drawing import Drawing, Layer, Line, crease_pattern
-from plisse.io.svg import INKSCAPE, STROKES, SVG, write_svg
+from plisse.draw.drawing import Arc, Drawing, Layer, Line, Spline, Text, crease_pattern
+from plisse.draw.strokes import MACHINE, PRINT
+from plisse.geometry.bezier import bezier_through
+from plisse.io.svg import INKSCAPE, SVG, write_svg
 
 
 def layers_of(path):
@@ -52,10 +55,10 @@ def test_layers_carry_the_colours_that_origami_simulator_reads(cones, tmp_path):
     write_svg(crease_pattern(cones), tmp_path / "d.svg")
     _, groups = layers_of(tmp_path / "d.svg")
     assert list(groups) == ["ruling", "boundary", "mountain", "valley"]
-    assert [STROKES[name] for name in ("mountain", "valley", "boundary")] == ["#ff0000", "#0000ff", "#000000"]
+    assert [MACHINE[name].colour for name in ("mountain", "valley", "boundary")] == ["#ff0000", "#0000ff", "#000000"]
     for name, group in groups.items():
         assert group.get(f"{{{INKSCAPE}}}groupmode") == "layer"
-        assert {path.get("stroke") for path in group} == {STROKES[name]}
+        assert {path.get("stroke") for path in group} == {MACHINE[name].colour}
 
 
 def test_every_crease_is_one_path(cones, tmp_path):
@@ -79,3 +82,44 @@ def test_titles_are_escaped_and_two_writes_give_the_same_bytes(cones, tmp_path):
     root, _ = layers_of(tmp_path / "a.svg")
     assert root.find(f"{{{SVG}}}title").text == '5 < 6 & "7" – é'
     assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
+
+
+def test_svgelements_measures_the_same_millimetres(closed_cones, tmp_path):
+    drawing = crease_pattern(closed_cones)
+    write_svg(drawing, tmp_path / "d.svg")
+    picture = svgelements.SVG.parse(tmp_path / "d.svg", ppi=25.4)  # one pixel is one millimetre
+    assert np.allclose([picture.width, picture.height], drawing.size, rtol=1e-6)  # its inch has six digits
+    paths = [np.array([(point.x, point.y) for point in path.as_points()])
+             for path in picture.elements(lambda element: isinstance(element, svgelements.Path))]
+    found = sum(np.hypot(*np.diff(path, axis=0).T).sum() for path in paths) * drawing.size[0] / picture.width
+    wanted = sum(line.length for layer in drawing.layers for line in layer.lines)
+    vertices = sum(len(line.path) for layer in drawing.layers for line in layer.lines)
+    assert found == pytest.approx(wanted, abs=1e-6 * vertices)
+
+
+def test_splines_and_arcs_are_curves_that_other_readers_follow(tmp_path):
+    ring = 50 + 20 * np.stack([np.cos(t := np.linspace(0, 2 * np.pi, 40, endpoint=False)), np.sin(t)], axis=1)
+    shapes = (Spline(bezier_through(ring, closed=True), closed=True), Arc((50.0, 40.0), 10.0, 0.5, 2.0),
+              Arc((50.0, 40.0), 5.0, 1.0, 1.0 + 2 * np.pi))
+    write_svg(Drawing("", (100.0, 100.0), (Layer("mountain", shapes),)), tmp_path / "d.svg")
+    picture = svgelements.SVG.parse(tmp_path / "d.svg", ppi=25.4)
+    spline, arc, circle = picture.elements(lambda element: isinstance(element, svgelements.Path))
+    for path, centre, radius in ((spline, (50, 50), 20), (arc, (50, 60), 10), (circle, (50, 60), 5)):
+        points = np.array([(path.point(u).x, path.point(u).y) for u in np.linspace(0, 1, 50)])
+        assert np.abs(np.hypot(*(points - centre).T) - radius).max() < 1e-4  # the spline's own distance from the circle
+    assert arc.length() == pytest.approx(15.0, rel=1e-6)  # its inch has six digits
+    assert circle.length() == pytest.approx(10 * np.pi, rel=1e-6)
+    first, last = arc.point(0), arc.point(1)
+    assert np.allclose([first.x, first.y], [50 + 10 * np.cos(0.5), 60 - 10 * np.sin(0.5)], atol=1e-4)
+    assert np.allclose([last.x, last.y], [50 + 10 * np.cos(2.0), 60 - 10 * np.sin(2.0)], atol=1e-4)
+
+
+def test_words_stand_where_they_belong_and_dashes_are_in_millimetres(tmp_path):
+    text = Text("5 < 6", (3.0, 4.0), 7.18, np.pi / 2, "end")
+    layer = Layer("valley", (Line(np.array([[0.0, 0.0], [9.0, 0.0]])),), (text,), PRINT["valley"])
+    write_svg(Drawing("", (10.0, 20.0), (layer,)), tmp_path / "d.svg")
+    _, groups = layers_of(tmp_path / "d.svg")
+    assert groups["valley"].get("stroke-dasharray") == "2.2 1.1"
+    found = groups["valley"].find(f"{{{SVG}}}text")
+    assert found.text == "5 < 6" and found.get("text-anchor") == "end" and found.get("font-size") == "10"
+    assert (found.get("x"), found.get("y"), found.get("transform")) == ("3", "16", "rotate(-90 3 16)")

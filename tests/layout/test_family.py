@@ -8,9 +8,11 @@ from plisse.errors import Infeasible, InvalidDesign
 from plisse.geometry.formulas import Cone, Cylinder, HeightField, Sphere, Torus
 from plisse.geometry.polyline import distance_to_polyline
 from plisse.geometry.vectors import dot, norm, unit
-from plisse.layout.family import Family, crease_positions, fan, shoot
-from plisse.layout.family_columns import guided_pattern, pattern_of, trajectories
+from plisse.layout.crossing import trajectories
+from plisse.layout.family import Family, fan, shoot
+from plisse.layout.family_columns import pattern_of
 from plisse.layout.guides import Guide, boundary_guide, guide_through, section_guide
+from plisse.layout.positions import crease_positions
 from plisse.layout.stops import Stop, Trace
 from plisse.measure.mid_surface import mid_surface_deviation
 from plisse.measure.sectors import angle_defect
@@ -21,6 +23,13 @@ from plisse.solve.zigzag import zigzag, zigzag_curves
 HILLS = HeightField("0.3*sin(x)*cos(0.8*y)", (-3, 3), (-2, 2))
 ACROSS = [[-2.8, 0, 0], [2.8, 0, 0]]
 THETA = np.radians(60)
+
+
+def guided_pattern(surface, guide, *, theta, width, amplitude, creases=None, samples=60, closed=False, **options):
+    """The pattern of a family along a guide, or along points."""
+    guide = guide if isinstance(guide, Guide) else guide_through(surface, guide, closed)
+    family = shoot(surface, guide, theta=np.radians(theta), width=width, amplitude=amplitude, creases=creases, **options)
+    return pattern_of(family, surface, amplitude, samples, crop=creases is None)
 
 
 def ring(radius, height=0.0, count=120):
@@ -109,7 +118,7 @@ def test_columns_are_orthogonal_trajectories_of_the_family():
 
 
 def test_offsets_enclose_theta_with_the_normals_and_lean_along_the_guide():
-    pattern = guided_pattern(HILLS, None, ACROSS, theta=60, width=0.25, amplitude=0.12, samples=40)
+    pattern = guided_pattern(HILLS, ACROSS, theta=60, width=0.25, amplitude=0.12, samples=40)
     normals = HILLS.project(pattern.curves.reshape(-1, 3)).normals.reshape(pattern.curves.shape)
     assert dot(pattern.binormals, normals) == pytest.approx(np.full(normals.shape[:2], 0.5), abs=1e-12)
     assert (dot(pattern.binormals[:-1], np.diff(pattern.curves, axis=0)) > 0).all()
@@ -118,14 +127,14 @@ def test_offsets_enclose_theta_with_the_normals_and_lean_along_the_guide():
 
 
 def test_zigzags_with_mirror_spacing_start_near_developable():
-    pattern = guided_pattern(HILLS, None, ACROSS, theta=60, width=0.25, amplitude=0.12, samples=60)
+    pattern = guided_pattern(HILLS, ACROSS, theta=60, width=0.25, amplitude=0.12, samples=60)
     start = zigzag(pattern, 0.12)
     assert np.abs(angle_defect(start.topology, start.vertices)).max() < 2e-3
 
 
 def test_the_family_is_cropped_to_a_rectangle_that_the_surface_contains():
-    free = guided_pattern(HILLS, None, ACROSS, theta=60, width=0.25, amplitude=0.12, samples=30)
-    kept = guided_pattern(HILLS, None, ACROSS, theta=60, width=0.25, amplitude=0.12, samples=30, creases=24)
+    free = guided_pattern(HILLS, ACROSS, theta=60, width=0.25, amplitude=0.12, samples=30)
+    kept = guided_pattern(HILLS, ACROSS, theta=60, width=0.25, amplitude=0.12, samples=30, creases=24)
     assert kept.creases == 24
     for pattern in (free, kept):
         assert np.abs(pattern.curves[..., 1]).max() < 2.1  # curves are shifted by a part of their gaps
@@ -133,7 +142,7 @@ def test_the_family_is_cropped_to_a_rectangle_that_the_surface_contains():
         gaps = pattern.widths / np.median(pattern.widths[::2], axis=1).mean()
         assert gaps.min() > 0.1
         assert gaps.max() < 3.0
-    across = guided_pattern(HILLS, None, [[0, -1.9, 0], [0, 1.9, 0]], theta=60, width=0.2, amplitude=0.1, samples=30)
+    across = guided_pattern(HILLS, [[0, -1.9, 0], [0, 1.9, 0]], theta=60, width=0.2, amplitude=0.1, samples=30)
     assert np.ptp(across.curves[across.creases // 2, :, 0]) > 3.5
 
 
@@ -150,8 +159,8 @@ def test_a_crop_that_begins_with_a_crease_above_leaves_it_above():
 
 def test_closed_families_close_after_an_even_number_of_creases():
     torus = Torus(3.0, 1.0)
-    pattern = guided_pattern(torus, None, ring(4.0), theta=60, width=0.4, amplitude=0.25, samples=20, creases=24,
-                             closed_family=True, length=0.9)
+    pattern = guided_pattern(torus, ring(4.0), theta=60, width=0.4, amplitude=0.25, samples=20, creases=24,
+                             closed=True, length=0.9)
     assert pattern.closed_family
     assert pattern.topology.face_count == 24 * 19
     assert pattern.widths.shape == (24, 20)
@@ -225,27 +234,27 @@ def test_plane_sections_guide_creases():
 def test_disarray_is_said_with_its_place():
     bumps = HeightField("0.5*sin(4*x)*sin(4*y)", (-2, 2), (-2, 2))
     with pytest.raises(Infeasible, match=r"curves? \d+ .*of 16.*(theta|guide)"):
-        guided_pattern(bumps, None, [[-1.8, 0.1, 0], [1.8, 0.1, 0]], theta=15, width=0.25, amplitude=0.1, creases=16)
+        guided_pattern(bumps, [[-1.8, 0.1, 0], [1.8, 0.1, 0]], theta=15, width=0.25, amplitude=0.1, creases=16)
     with pytest.raises(Infeasible, match="curl"):
-        guided_pattern(Sphere(1.0, 1.2), None, ring(0.5, np.sqrt(0.75)), theta=1.5, width=0.2, amplitude=0.1,
-                       closed_family=True)
+        guided_pattern(Sphere(1.0, 1.2), ring(0.5, np.sqrt(0.75)), theta=1.5, width=0.2, amplitude=0.1,
+                       closed=True)
 
 
 @pytest.mark.parametrize("theta", [0, 90, -5])
 def test_inclinations_outside_the_range_are_refused(theta):
     with pytest.raises(InvalidDesign, match="inclination"):
-        guided_pattern(HILLS, None, ACROSS, theta=theta, width=0.25, amplitude=0.1)
+        guided_pattern(HILLS, ACROSS, theta=theta, width=0.25, amplitude=0.1)
 
 
-@pytest.mark.parametrize("guide", ["boundary", [[0, 0, 0]], [[0, 0, 0], [0, 0, 0]], [[0, 0, np.nan], [1, 0, 0]]])
+@pytest.mark.parametrize("guide", [[[0, 0, 0]], [[0, 0, 0], [0, 0, 0]], [[0, 0, np.nan], [1, 0, 0]]])
 def test_impossible_guides_are_refused(guide):
     with pytest.raises(InvalidDesign, match=r"guide"):
-        guided_pattern(HILLS, None, guide, theta=60, width=0.25, amplitude=0.1)
+        guided_pattern(HILLS, guide, theta=60, width=0.25, amplitude=0.1)
 
 
 def test_a_height_field_becomes_exact_and_stays_near():
     amplitude = 0.2
-    pattern = guided_pattern(HILLS, None, ACROSS, theta=60, width=0.25, amplitude=amplitude, samples=40)
+    pattern = guided_pattern(HILLS, ACROSS, theta=60, width=0.25, amplitude=amplitude, samples=40)
     best = solve([(Start(pattern, amplitude, 40), SECOND_CHANCE)]).best
     assert best.verdict is not None
     assert best.verdict.is_good
@@ -256,8 +265,8 @@ def test_a_height_field_becomes_exact_and_stays_near():
 
 def test_a_closed_family_becomes_exact():
     torus = Torus(3.0, 1.0)
-    pattern = guided_pattern(torus, None, ring(4.0), theta=60, width=0.8, amplitude=0.5, samples=24, creases=24,
-                             closed_family=True, length=0.9, tuned=False)
+    pattern = guided_pattern(torus, ring(4.0), theta=60, width=0.8, amplitude=0.5, samples=24, creases=24,
+                             closed=True, length=0.9, tuned=False)
     best = solve([(Start(pattern, 0.5, 24), GENERAL)]).best
     assert best.verdict is not None
     assert best.verdict.is_good

@@ -11,9 +11,17 @@ from collections.abc import Sequence
 import cyclopts
 
 from plisse.cli.check import check
+from plisse.cli.export import export
+from plisse.cli.flex import flex
 from plisse.cli.gallery import gallery
 from plisse.cli.layout import layout
 from plisse.cli.make import make
+from plisse.cli.offset import offset
+from plisse.cli.parallel import parallel
+from plisse.cli.plates import plates
+from plisse.cli.sheets import sheets
+from plisse.cli.strips import strips
+from plisse.cli.table import table
 from plisse.errors import PlisseError
 
 __all__ = ["EXACT", "INEXACT", "app", "main"]
@@ -33,8 +41,16 @@ app = cyclopts.App(
          "Exit codes: 0 exact, 1 bad input, 2 usage, 3 finished but not exact or not regular.")
 app.command(make)
 app.command(check)
+app.command(export)
+app.command(sheets)
 app.command(gallery)
 app.command(layout)
+app.command(table)
+app.command(flex)
+app.command(offset)
+app.command(plates)
+app.command(parallel)
+app.command(strips)
 
 
 def main(tokens: Sequence[str] | None = None) -> int:

@@ -9,12 +9,12 @@ __all__ = ["check"]
 
 
 def check(file: Path, /, *, json: Annotated[bool, Parameter(negative=())] = False) -> int:
-    """Measure a FOLD or OBJ quad mesh: is it an exact pleated structure?
+    """Measure a FOLD, OBJ or 3DM quad mesh: is it an exact pleated structure?
 
     Parameters
     ----------
     file
-        A .fold file or an .obj file with quads; `l` polylines mark its creases.
+        A .fold, .obj or .3dm file with one mesh of quads; `l` polylines mark the creases of an .obj file.
     json
         Print the numbers as JSON.
     """

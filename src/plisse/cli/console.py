@@ -13,8 +13,9 @@ from rich.text import Text
 
 if TYPE_CHECKING:
     from plisse.result import Interval, Report
+    from plisse.table import Row
 
-__all__ = ["list_designs", "progress", "show_check", "summarise"]
+__all__ = ["list_designs", "progress", "show_check", "show_table", "summarise"]
 
 STYLES = {"exact": "bold green", "approximate": "bold yellow", "infeasible": "bold red"}
 
@@ -42,11 +43,36 @@ def summarise(report: Report, directory: Path, *, title: str) -> None:
                                              f"mean {report.crease_deviation.mean:.2f} amplitudes"))
     if report.development is not None:
         width, height = report.development.size_mm
-        note = ", overlaps itself" if report.development.overlaps else ""
+        pieces = report.development.pieces
+        note = f" in {pieces} pieces" * (pieces > 1) + ", overlaps itself" * report.development.overlaps
         rows.append(("sheet", f"{width:.1f} × {height:.1f} mm{note}"))
     rows.append(("seconds", f"{report.seconds.get('total', 0.0):.2f}"))
     rows.append(("files", str(directory)))
     _panel(title, report.status, rows, report.reasons + report.warnings)
+
+
+def show_table(rows: list[Row]) -> None:
+    """Print the examples of Fig. 21 with the paper's numbers beside ours."""
+    from plisse.table import PRINTED, totals
+
+    shown = Table(title="Fig. 21: ours beside the paper's", title_justify="left")
+    for name in ("figure", "vertices", "faces", "steps", "seconds", "paper", "planarity", "paper", "angle defect", "paper",
+                 "status"):
+        shown.add_column(name, justify="left" if name in ("figure", "status") else "right")
+    for row in rows:
+        printed = PRINTED[row.name]
+        shown.add_row(row.name, str(row.vertices), str(row.faces), str(row.iterations), f"{row.seconds:.3f}",
+                      f"{row.paper_seconds:g}", *(_power(value) for value in (row.planarity_max, printed.planarity_max,
+                                                                             row.angle_max, printed.angle_max)),
+                      Text(row.status, STYLES[row.status]))
+    ours, theirs = totals(rows)
+    shown.add_section()
+    shown.add_row("all", "", "", "", f"{ours:.2f}", f"{theirs:.1f}", "", "", "", "", f"{theirs / ours:.0f} times as fast")
+    Console(width=max(Console().width, 110)).print(shown)
+
+
+def _power(value: float | None) -> str:
+    return "" if value is None else f"{value:.1e}"
 
 
 def show_check(report: Report, *, title: str) -> None:
@@ -68,6 +94,12 @@ def _measures(report: Report) -> list[tuple[str, str]]:
         rows.append(("smallest sector angle", f"{report.min_sector_angle_deg:.1f}°"))
     if report.opening_angle_deg is not None:
         rows.append(("opening angles", _range(report.opening_angle_deg)))
+    if report.edge_scales is not None:
+        rows.append(("edge scales", f"{report.edge_scales.min:.3g} to {report.edge_scales.max:.3g}"))
+    angles = [entry.inclination_deg for entry in report.strips if entry.inclination_deg is not None]
+    if angles:
+        rows.append(("strips to the surface", f"{min(angle.min for angle in angles):.2f}° to "
+                                              f"{max(angle.max for angle in angles):.2f}°"))
     return rows
 
 

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from plisse.geometry.graph import GraphSurface
+    from plisse.geometry.parametric import ParametricSurface
     from plisse.recipe import SurfaceDesign
     from plisse.solve.whole_surface import Candidate, WholeSurface
 
@@ -45,6 +46,7 @@ def layout(
     from plisse.draw.candidates import write_candidates
     from plisse.errors import PlisseError
     from plisse.geometry.graph import GraphSurface
+    from plisse.geometry.parametric import ParametricSurface
     from plisse.io.atomic import require_writable, written_together
     from plisse.reconstruction import laid_out_over, reference_surface
 
@@ -56,9 +58,9 @@ def layout(
         raise PlisseError(f"{directory / 'layout.toml'} exists already; remove it or choose another directory with -o")
     require_writable(directory)
     mesh, surface = reference_surface(recipe.surface)
-    if not isinstance(surface, GraphSurface):
-        raise PlisseError(f"{file} has a guide, a fan, or a surface that is no graph over its mean plane, so layouts are "
-                          "not searched for; run plisse make")
+    if recipe.surface.is_guided or not isinstance(surface, GraphSurface | ParametricSurface):
+        raise PlisseError(f"{file} has a guide or a point from which creases start, so layouts are not searched for; run "
+                          "plisse make")
     with progress(quiet) as advance:
         found = laid_out_over(recipe, mesh, surface, count, advance)
     chosen = found.candidates.index(found.best)
@@ -71,19 +73,24 @@ def layout(
     return 0 if found.best.solved.is_sound else 3
 
 
-def design_text(recipe: SurfaceDesign, candidate: Candidate, surface: GraphSurface, directory: Path, count: int) -> str:
+def design_text(recipe: SurfaceDesign, candidate: Candidate, surface: GraphSurface | ParametricSurface,
+                directory: Path, count: int) -> str:
     """The design of one candidate as TOML, with the mesh file as seen from `directory`."""
     section, pattern, sizes = recipe.surface, recipe.pattern, candidate.layout.sizes
     lines = [f"# {candidate.layout.label}: {100 * candidate.coverage:.1f} % covered, mean deviation "
              f"{candidate.mean_deviation:.2f} amplitudes", f"units = {json.dumps(recipe.units)}", "", "[surface]"]
     if section.file is not None:
         lines.append(f"file = {_quoted(_relative(Path(section.file), directory))}")
+    elif section.radius is not None:
+        lines += [f"radius = {_quoted(section.radius)}", f"x = {list(section.x)}"]
     else:
         lines += [f"height = {_quoted(section.height or '')}", f"x = {list(section.x)}", f"y = {list(section.y)}"]
     centre = section.centre if section.centre is not None else _centre(candidate, surface, count)
     if centre is not None:
         lines.append(f"centre = {[float(value) for value in centre]}  # rows run around this point")
     lines.append(f"overhang = {'true' if section.overhang else 'false'}  # may pleats lean by more than 45 degrees?")
+    if candidate.seams or section.seams is not None:
+        lines.append(f"seams = {len(candidate.seams)}  # along which the sheet is cut apart")
     lines += ["", "[pattern]"]
     if centre is not None:
         lines += [f"width = {float(sizes.width)}  # of a strip", f"amplitude = {float(sizes.amplitude)}  # off the surface"]
@@ -109,15 +116,17 @@ def _recipe(file: str) -> SurfaceDesign:
     return recipe
 
 
-def _centre(candidate: Candidate, surface: GraphSurface, count: int) -> np.ndarray | None:
-    """The point (3,) around which a candidate's rows run, or None where they run between boundaries."""
+def _centre(candidate: Candidate, surface: GraphSurface | ParametricSurface, count: int) -> np.ndarray | None:
+    """The point (3,) around which a candidate's rows run; None where they run around none, or where no point stands for
+    it because the surface does not reach there."""
     import numpy as np
 
     from plisse.layout.automatic import centres
 
     for place in centres(surface.mesh, surface, count):
         if candidate.layout.label.startswith(f"centre ({place[0]:.4g}, {place[1]:.4g})"):
-            return surface.to_space(np.array([[*place, 0.0]]))[0]
+            point = surface.to_space(np.array([[*place, 0.0]]))
+            return point[0] if np.allclose(surface.to_plane(point)[0, :2], place, atol=1e-6 * surface.diagonal) else None
     return None
 
 

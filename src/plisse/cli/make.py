@@ -13,7 +13,8 @@ if TYPE_CHECKING:
 
 __all__ = ["FILES", "make", "write_files"]
 
-FILES = ("structure.fold", "structure.obj", "development.svg", "preview.png", "overlay.png", "report.json")
+FILES = ("structure.fold", "structure.obj", "development.svg", "preview.png", "overlay.png", "family.png",
+         "cutting-list.csv", "solids.stl", "report.json")
 
 
 def make(
@@ -65,7 +66,9 @@ def make(
 
 def write_files(result: Result, directory: Path, *, title: str) -> Report:
     """The report as written: `directory` gets all FILES that exist for the result, together or not at all."""
+    from plisse.cli.strip_files import write_strip_files
     from plisse.draw.drawing import crease_pattern
+    from plisse.draw.family import write_family
     from plisse.draw.overlay import write_overlay
     from plisse.draw.preview import write_preview
     from plisse.io.atomic import written_together
@@ -79,13 +82,19 @@ def write_files(result: Result, directory: Path, *, title: str) -> Report:
     with written_together(directory, owned=FILES) as stage:
         if structure is not None:
             write_obj(structure, stage / "structure.obj", title=title, units=units)
+        if result.arrangement is not None:
+            write_strip_files(result, stage, title=title)
+        elif structure is not None:
             write_preview(result, stage / "preview.png", title=title)
+        if result.family:
+            write_family(result.family, stage / "family.png", title=title)
         if structure is not None and result.overlay is not None:
             over = result.overlay
             write_overlay(structure, over.mesh, over.distances, stage / "overlay.png", amplitude=over.amplitude, title=title)
         if structure is not None and structure.development is not None:
             write_fold(structure, stage / "structure.fold", title=title, units=units)
-            write_svg(crease_pattern(structure, units, title=title), stage / "development.svg")
+            if result.arrangement is None:
+                write_svg(crease_pattern(structure, units, title=title), stage / "development.svg")
         report = _with_seconds(result.report, perf_counter() - start)
         write_report(report, stage / "report.json")
     return report

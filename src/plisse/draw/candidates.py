@@ -58,6 +58,8 @@ def write_candidates(candidates: Sequence[Candidate], chosen: int, mesh: Referen
 
 def _said(candidate: Candidate) -> str:
     note = f"{candidate.mean_deviation:.2f} amplitudes"
+    if candidate.seams:
+        note += f", {len(candidate.seams)} seams"
     if not candidate.solved.is_sound:
         note = "not regular" if candidate.solved.is_exact else "not exact"
     return f"{100 * candidate.coverage:.1f} % covered, {note}"

@@ -13,7 +13,7 @@ from plisse.geometry.mesh import ReferenceMesh
 from plisse.geometry.vectors import norm, unit
 from plisse.measure.planarity import face_normals
 from plisse.structure.pleated import PleatedStructure
-from plisse.structure.topology import Topology
+from plisse.structure.triangles import triangulated
 
 __all__ = ["write_overlay"]
 
@@ -65,7 +65,7 @@ def _top(values: np.ndarray) -> float:
 def _rendered(structure: PleatedStructure, mesh: ReferenceMesh, shares: np.ndarray) -> Rendering:
     """The picture as large as fits; lines are hidden by the structure only, for the reference is transparent."""
     camera = best_view(structure)
-    faces, face_of = _triangles(structure.topology)
+    faces, face_of = triangulated(structure.topology)
     pleats, glass = camera.project(structure.vertices[faces]), camera.project(mesh.corners)
     both = np.concatenate([pleats, glass]).reshape(-1, 3)
     low, high = both.min(axis=0), both.max(axis=0)
@@ -143,14 +143,3 @@ def _draw_scale(figure, values: np.ndarray, top: float) -> None:
     known = values[np.isfinite(values)]
     numbers = f", mean {known.mean():.2f}, largest {known.max():.2f}" if len(known) else ""
     bar.set_title(f"deviation from the reference in amplitudes{numbers}", fontsize=7, color=colours.INK, pad=4, loc="left")
-
-
-def _triangles(topology: Topology) -> tuple[np.ndarray, np.ndarray]:
-    """Triangles (T, 3) of all faces and the faces (T,) they belong to."""
-    parts = [topology.quads[:, [0, 1, 2]], topology.quads[:, [0, 2, 3]]]
-    faces = [np.arange(len(topology.quads))] * 2
-    for k, hub in enumerate(topology.hubs, start=len(topology.quads)):
-        fan = np.arange(1, len(hub) - 1)
-        parts.append(np.stack([np.full(len(fan), hub[0]), hub[fan], hub[fan + 1]], axis=1))
-        faces.append(np.full(len(fan), k))
-    return np.concatenate(parts), np.concatenate(faces)

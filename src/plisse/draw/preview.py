@@ -7,9 +7,9 @@ import numpy as np
 from plisse.draw import colours
 from plisse.draw.camera import Camera, best_view
 from plisse.draw.drawing import crease_pattern
+from plisse.draw.folded import DOTS_PER_INCH, draw_folded, draw_lines, line_width
 from plisse.draw.layout import Layout, arrange, dense, turned
-from plisse.draw.render import Rendering, render
-from plisse.draw.runs import lettered_runs
+from plisse.draw.render import render
 from plisse.draw.table import table
 from plisse.measure.planarity import planarity_defect
 from plisse.measure.sectors import angle_defect
@@ -21,7 +21,6 @@ __all__ = ["write_preview"]
 
 SIZE = (2000, 1125)
 MARGIN, CAPTION_BAND, RIM = 80, 125, 6
-DOTS_PER_INCH = 200
 
 
 def write_preview(subject: Result | PleatedStructure, path: str | Path, *, title: str | None = None,
@@ -66,9 +65,9 @@ def _compose(axes, structure: PleatedStructure, units: str) -> Layout:
     ground = table(SIZE, picture.image[..., 3], layout.folded - RIM, placed.get("boundary", []))
     axes.imshow(ground, origin="lower", interpolation="bilinear", aspect="auto", zorder=0,
                 extent=(0, SIZE[0], 0, SIZE[1]))
-    _draw_folded(axes, picture, structure, layout.folded - RIM, _line_width(structure, layout.scale))
+    draw_folded(axes, picture, structure, layout.folded - RIM, line_width(structure, layout.scale))
     if placed:
-        _draw_sheet(axes, placed, _line_width(structure, layout.scale / layout.reduction, 0.35))
+        _draw_sheet(axes, placed, line_width(structure, layout.scale / layout.reduction, 0.35))
     return layout
 
 
@@ -80,19 +79,11 @@ def _cloud(structure: PleatedStructure, camera: Camera) -> np.ndarray:
     return np.concatenate([dense(seen[edge]) for edge in structure.topology.edges.vertices])
 
 
-def _line_width(structure: PleatedStructure, scale: float, least: float = 0.16) -> float:
-    """Width of crease lines in points: a small part of the strips between them, never heavy."""
-    edges = structure.topology.edges
-    a, b = structure.vertices[edges.vertices[~edges.is_crease].T]
-    strip = np.median(np.linalg.norm(a - b, axis=1)) * scale * 72 / DOTS_PER_INCH
-    return float(np.clip(strip / 20, least, 0.7))
-
-
 def _sheet(structure: PleatedStructure, units: str) -> dict[str, list[np.ndarray]]:
     """Polylines (N, 2) of the flat pattern in model units by layer."""
     drawing = crease_pattern(structure, units)
     unit = MILLIMETRES[units]
-    return {layer.name: [line.stroke / unit for line in layer.lines] for layer in drawing.layers}
+    return {layer.name: [line.path / unit for line in layer.lines] for layer in drawing.layers}
 
 
 def _placed(sheet: dict[str, list[np.ndarray]], layout: Layout) -> dict[str, list[np.ndarray]]:
@@ -103,23 +94,6 @@ def _placed(sheet: dict[str, list[np.ndarray]], layout: Layout) -> dict[str, lis
     return {name: [(line - low) * scale + layout.flat for line in lines] for name, lines in on_page.items()}
 
 
-def _draw_folded(axes, picture: Rendering, structure: PleatedStructure, corner: np.ndarray,
-                 width_of_lines: float) -> None:
-    height, width = picture.image.shape[:2]
-    corner = np.round(corner)
-    axes.imshow(picture.image, origin="lower", interpolation="nearest", aspect="auto", zorder=2,
-                extent=(corner[0], corner[0] + width, corner[1], corner[1] + height))
-    lines: dict[str, list[np.ndarray]] = {letter: [] for letter in "BMVFR"}
-    for run in lettered_runs(structure):
-        if run.letter != "R":
-            path = structure.vertices[run.vertices]
-            path = np.concatenate([path, path[:1]]) if run.closed else path
-            lines[run.letter] += [part + corner for part in picture.visible(path)]
-    _lines(axes, lines["B"], colours.EDGE, 0.6 * width_of_lines, 0.75, 3)
-    _lines(axes, lines["V"], colours.VALLEY, width_of_lines, 0.85, 3)
-    _lines(axes, lines["M"], colours.MOUNTAIN, width_of_lines, 0.85, 3)
-
-
 def _draw_sheet(axes, placed: dict[str, list[np.ndarray]], width: float) -> None:
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path as Outline
@@ -127,9 +101,9 @@ def _draw_sheet(axes, placed: dict[str, list[np.ndarray]], width: float) -> None
     outline = Outline.make_compound_path(*[Outline(loop, closed=True) for loop in placed["boundary"]])
     paper = PathPatch(outline, facecolor=colours.PAPER, edgecolor=colours.EDGE, linewidth=0.45, zorder=1)
     axes.add_patch(paper)
-    _lines(axes, _sparse(placed["ruling"]), colours.RULING, 0.2, 0.35, 2)
-    _lines(axes, placed["valley"], colours.VALLEY, width, 1.0, 3)
-    _lines(axes, placed["mountain"], colours.MOUNTAIN, width, 1.0, 3)
+    draw_lines(axes, _sparse(placed["ruling"]), colours.RULING, 0.2, 0.35, 2)
+    draw_lines(axes, placed["valley"], colours.VALLEY, width, 1.0, 3)
+    draw_lines(axes, placed["mountain"], colours.MOUNTAIN, width, 1.0, 3)
 
 
 def _sparse(rulings: list[np.ndarray], apart: float = 7.0) -> list[np.ndarray]:
@@ -139,13 +113,6 @@ def _sparse(rulings: list[np.ndarray], apart: float = 7.0) -> list[np.ndarray]:
     middles = np.array([line[len(line) // 2] for line in rulings])
     gap = np.median(np.hypot(*np.diff(middles, axis=0).T))
     return rulings[::max(1, int(np.ceil(apart / max(gap, 1e-3))))]
-
-
-def _lines(axes, lines: list[np.ndarray], colour: str, width: float, alpha: float, zorder: int) -> None:
-    from matplotlib.collections import LineCollection
-
-    axes.add_collection(LineCollection(lines, colors=colour, linewidths=width, alpha=alpha, zorder=zorder,
-                                       capstyle="round", joinstyle="round"))
 
 
 def _facts(structure: PleatedStructure, units: str, reduction: int) -> list[str]:

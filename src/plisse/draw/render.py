@@ -13,7 +13,7 @@ from plisse.measure.planarity import face_normals
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Topology
 
-__all__ = ["Rendering", "render"]
+__all__ = ["Rendering", "render", "render_triangles"]
 
 OVERSAMPLE = 2
 
@@ -48,17 +48,22 @@ class Rendering:
 
 def render(structure: PleatedStructure, camera: Camera, scale: float, margin: int = 8) -> Rendering:
     """The structure on transparent ground, `scale` pixels per model unit, with `margin` pixels around it."""
-    triangles, normals = _triangles(structure)
+    return render_triangles(*_triangles(structure), camera, scale, margin)
+
+
+def render_triangles(triangles: np.ndarray, normals: np.ndarray, camera: Camera, scale: float, margin: int = 8,
+                     tints: np.ndarray | None = None) -> Rendering:
+    """Any triangles (T, 3, 3) as if made of paper, normals (T, 3, 3) at their corners; `tints` (T, 3) colour the paper."""
     seen = camera.project(triangles)
     low, high = seen.reshape(-1, 3).min(axis=0), seen.reshape(-1, 3).max(axis=0)
     origin = low - margin / scale
     width, height = np.ceil((high - low)[:2] * scale + 2 * margin).astype(int)
     pixels = (seen - origin) * scale * OVERSAMPLE
     buffer = rasterise(pixels, width * OVERSAMPLE, height * OVERSAMPLE)
-    return Rendering(_image(buffer, pixels, camera.project(normals)), buffer, camera, scale, origin)
+    return Rendering(_image(buffer, pixels, camera.project(normals), tints), buffer, camera, scale, origin)
 
 
-def _image(buffer: DepthBuffer, pixels: np.ndarray, normals: np.ndarray) -> np.ndarray:
+def _image(buffer: DepthBuffer, pixels: np.ndarray, normals: np.ndarray, tints: np.ndarray | None) -> np.ndarray:
     height, width = buffer.depth.shape
     row, column = np.nonzero(buffer.triangle >= 0)
     place = np.stack([column, row], axis=1).astype(np.float32) + np.float32(0.5)
@@ -69,6 +74,8 @@ def _image(buffer: DepthBuffer, pixels: np.ndarray, normals: np.ndarray) -> np.n
     image = np.zeros((height, width, 4), np.float32)
     coarse = row // OVERSAMPLE, column // OVERSAMPLE
     image[row, column, :3] = paper_colour(normal, front, sun[coarse], sky[coarse])
+    if tints is not None:
+        image[row, column, :3] *= tints[buffer.triangle[row, column]].astype(np.float32)
     image[row, column, 3] = 1
     return _reduced(image)
 

@@ -60,6 +60,10 @@ class GraphSurface:
         return SurfacePoints(self.to_space(np.concatenate([plane, height[:, None]], axis=1)), normals @ self.frame,
                              self.frame.T @ bending @ self.frame, inside)
 
+    def at(self, places: np.ndarray) -> SurfacePoints:
+        """The surface over points (N, 2) of the mean plane."""
+        return self.project(self.to_space(np.column_stack([places, np.zeros(len(places))])))
+
     def heights(self, plane: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """z (N,), first derivatives (2, N) and second ones (3, N) at points (N, 2) of the mean plane."""
         low, high = self.domain

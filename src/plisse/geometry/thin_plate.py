@@ -1,4 +1,4 @@
-"""Quintic splines over a rectangle that follow scattered heights with little energy."""
+"""Quintic splines over a rectangle that follow scattered heights or points with little energy."""
 
 from dataclasses import dataclass
 
@@ -13,39 +13,49 @@ DEGREE = 5
 
 
 def smoothing_spline(places: np.ndarray, heights: np.ndarray, low: np.ndarray, high: np.ndarray, spacing: float,
-                     strength: float, plate: float) -> NdBSpline:
+                     strength: float, plate: float, periodic: bool = False) -> NdBSpline:
     """The spline z on [low, high] that minimises Σ |z − z_k|² + strength ∫ |∂³z|² + plate |∂²z|².
 
-    Knots are about `spacing` apart. Far from the `places` (K, 2) it becomes a plane.
+    `heights` (K,) or (K, 3) belong to the `places` (K, 2). Knots are about `spacing` apart. Far from the places the
+    spline becomes linear. If `periodic`, it closes in the first direction.
     """
-    one, two = (_Axis(a, b, max(3, int(np.ceil((b - a) / spacing)))) for a, b in zip(low, high, strict=True))
+    one, two = (_Axis(a, b, max(DEGREE + 2 if around else 3, int(np.ceil((b - a) / spacing))), around)
+                for a, b, around in zip(low, high, (periodic, False), strict=True))
     rows = _row_products(one.values(places[:, 0]), two.values(places[:, 1]))
     system = csc_array(rows.T @ rows + strength * _energy(one, two, plate))
     factor = splu(system, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
     right = rows.T @ heights
     solution = factor.solve(right)
     solution += factor.solve(right - system @ solution)
-    return NdBSpline((one.knots, two.knots), solution.reshape(one.count, two.count), DEGREE, extrapolate=True)
+    coefficients = solution.reshape(one.count, two.count, *heights.shape[1:])
+    return NdBSpline((one.knots, two.knots), coefficients[one.folded][:, two.folded], DEGREE, extrapolate=True)
 
 
 @dataclass(frozen=True)
 class _Axis:
-    """Uniform B-splines on [low, high] with `cells` knot spans."""
+    """Uniform B-splines on [low, high] with `cells` knot spans, the last of them the first ones again if `periodic`."""
 
     low: float
     high: float
     cells: int
+    periodic: bool = False
 
     @property
     def count(self) -> int:
-        return self.cells + DEGREE
+        return self.cells + (0 if self.periodic else DEGREE)
+
+    @property
+    def folded(self) -> np.ndarray:
+        """Number of the unknown that belongs to each of the cells + 5 splines."""
+        return np.arange(self.cells + DEGREE) % self.count
 
     @property
     def knots(self) -> np.ndarray:
         return self.low + (self.high - self.low) / self.cells * np.arange(-DEGREE, self.cells + DEGREE + 1)
 
     def values(self, at: np.ndarray) -> csr_array:
-        return csr_array(BSpline.design_matrix(np.clip(at, self.low, self.high), self.knots, DEGREE))
+        rows = csr_array(BSpline.design_matrix(np.clip(at, self.low, self.high), self.knots, DEGREE))
+        return csr_array((rows.data, self.folded[rows.indices], rows.indptr), shape=(len(at), self.count))
 
     def energies(self) -> list[csr_array]:
         """Gram matrices of the splines and of their derivatives up to the third, by Gauss's rule."""
@@ -53,7 +63,7 @@ class _Axis:
         size = (self.high - self.low) / self.cells
         at = (self.low + size * (np.arange(self.cells)[:, None] + 0.5 * (node + 1))).ravel()
         root = np.sqrt(0.5 * size * np.tile(weight, self.cells))[:, None]
-        basis = BSpline(self.knots, np.eye(self.count), DEGREE)
+        basis = BSpline(self.knots, np.eye(self.count)[self.folded], DEGREE)
         grams = []
         for order in range(4):
             values = csr_array(root * basis(at, nu=order))

@@ -6,6 +6,8 @@ from itertools import pairwise
 import numpy as np
 
 from plisse.errors import InvalidDesign
+from plisse.io.march_consistency import check_march
+from plisse.io.strips_consistency import check_strips
 from plisse.recipe import (
     Arc,
     ClosedForm,
@@ -14,14 +16,14 @@ from plisse.recipe import (
     Design,
     Ellipse,
     Helix,
+    March,
     Pattern,
     Points,
     Spline,
-    SurfaceDesign,
     TorusKnot,
 )
 
-__all__ = ["check_design", "check_surface_design"]
+__all__ = ["check_design"]
 
 MAX_VERTICES = 250_000
 LARGEST_RATIO = 1e5
@@ -29,8 +31,9 @@ LARGEST_RATIO = 1e5
 
 def check_design(design: Design) -> Design:
     """The same design; raises InvalidDesign where its numbers contradict each other."""
+    check_strips(design)
     if design.closed_form is not None:
-        if design.curve is not None or design.pattern is not None:
+        if design.curve is not None or design.pattern is not None or design.march is not None:
             raise InvalidDesign("a design has either closed_form or curve and pattern, but this one has both; remove one")
         _check_size("closed_form", design.closed_form)
         form = design.closed_form
@@ -38,6 +41,8 @@ def check_design(design: Design) -> Design:
             raise InvalidDesign(f"closed_form.growth = {form.growth:g} over {form.creases} creases makes the last one "
                                 f"{form.growth**form.creases:.0e} times as large as the first; lower one of them")
         return design
+    if design.march is not None:
+        return _check_marched(design, design.march)
     if design.curve is None or design.pattern is None:
         section = "curve" if design.curve is None else "pattern"
         raise InvalidDesign(f"{section} is missing; add a [{section}] section, as `plisse gallery fig01d` shows")
@@ -56,36 +61,28 @@ def check_design(design: Design) -> Design:
     return design
 
 
-def check_surface_design(design: SurfaceDesign) -> SurfaceDesign:
-    """The same design; raises InvalidDesign unless it names one surface."""
-    surface, pattern = design.surface, design.pattern
-    given = [name for name in ("file", "height", "radius", "torus") if getattr(surface, name) is not None]
-    if len(given) != 1:
-        found = "both " + " and ".join(f"surface.{name}" for name in given) if given else \
-            "neither surface.file nor surface.height nor another kind"
-        raise InvalidDesign(f"a surface is one of file, height, radius, torus, but {found} is given; give one of them")
-    if surface.guide is not None and surface.fan is not None:
-        raise InvalidDesign("surface.guide and surface.fan are both given; creases start from one of them")
-    needed = {"guide": ("theta", "width", "amplitude"), "fan": ("theta", "amplitude", "creases")}
-    for kind, names in needed.items():
-        for name in names:
-            if getattr(surface, kind) is not None and getattr(pattern, name) is None:
-                raise InvalidDesign(f"pattern.{name} is missing; a layout along surface.{kind} needs it")
-    if surface.handles is not None and surface.edited_file is not None:
-        raise InvalidDesign("surface.handles and surface.edited_file are both given; edit the surface in one way")
-    if surface.edited_file is not None and surface.file is None:
-        raise InvalidDesign("surface.edited_file needs surface.file, the same mesh before it was edited")
-    if pattern.initial == "normal" and None in (surface.centre, pattern.width, pattern.amplitude):
-        raise InvalidDesign("pattern.initial = \"normal\" needs surface.centre, pattern.width and pattern.amplitude")
-    if surface.fan is not None and surface.fan_radius is None:
-        raise InvalidDesign("surface.fan_radius is missing; say how far from surface.fan the creases begin")
-    for name, (low, high) in (("x", surface.x), ("y", surface.y)):
-        if not low < high:
-            raise InvalidDesign(f"surface.{name} is [{low:g}, {high:g}]; give two rising numbers")
+def _check_marched(design: Design, march: March) -> Design:
+    """The same design; raises InvalidDesign where curve and march do not make one."""
+    if design.pattern is not None:
+        raise InvalidDesign("a design has either pattern or march, but this one has both; remove one")
+    if design.curve is None:
+        raise InvalidDesign("curve is missing; add a [curve] section from which the creases march, as `plisse gallery "
+                            "march-shell` shows")
+    _check_size("march", march)
+    check_march(march, closed=design.curve.closed)
+    if design.solve.cut is not None and not design.curve.closed:
+        raise InvalidDesign("solve.cut is set, but the curve is open and needs no cut; remove it or set curve.closed")
+    _check_curve(design.curve)
+    lengths = np.array(march.distance, dtype=float)
+    lengths, size = lengths[:, 1] if lengths.ndim == 2 else np.atleast_1d(lengths), _size(design.curve)
+    for value in (lengths.min(), lengths.max()):
+        if not size / LARGEST_RATIO < value < size * 10:
+            raise InvalidDesign(f"march.distance is {value:g}, but the curve measures {size:.3g} model units; give lengths "
+                                "of one scale")
     return design
 
 
-def _check_size(section: str, grid: Pattern | ClosedForm) -> None:
+def _check_size(section: str, grid: Pattern | March | ClosedForm) -> None:
     vertices = grid.creases * grid.samples
     if vertices > MAX_VERTICES:
         raise InvalidDesign(f"{section}.creases × {section}.samples = {vertices} vertices is more than plisse solves "

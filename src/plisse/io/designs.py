@@ -7,9 +7,10 @@ from pathlib import Path
 import msgspec
 
 from plisse.errors import InvalidDesign
-from plisse.io.consistency import check_design, check_surface_design
+from plisse.io.consistency import check_design
 from plisse.io.mistakes import refuse_non_finite, sentence
 from plisse.io.polylines import read_polyline
+from plisse.io.surface_consistency import check_surface_design
 from plisse.recipe import Design, Points, Spline, SurfaceDesign
 
 __all__ = ["design_from_dict", "parse_assignment", "read_design"]
@@ -49,11 +50,12 @@ def design_from_dict(data: dict, base: str | Path = ".") -> Design | SurfaceDesi
     refuse_non_finite(data)
     try:
         if "surface" in data:
-            return _with_mesh(check_surface_design(msgspec.convert(data, SurfaceDesign)), Path(base))
-        design = msgspec.convert(data, Design)
+            design = check_surface_design(msgspec.convert(data, SurfaceDesign))
+            return _with_guide(_with_mesh(design, Path(base)), Path(base))
+        curved = msgspec.convert(data, Design)
     except msgspec.ValidationError as error:
         raise InvalidDesign(sentence(str(error), data)) from None
-    return check_design(_with_points(design, Path(base)))
+    return check_design(_with_points(curved, Path(base)))
 
 
 def parse_assignment(text: str) -> tuple[list[str], object]:
@@ -92,6 +94,14 @@ def _with_mesh(design: SurfaceDesign, base: Path) -> SurfaceDesign:
     edited = None if surface.edited_file is None else str(base / surface.edited_file)
     surface = msgspec.structs.replace(surface, file=str(base / surface.file), edited_file=edited)
     return msgspec.structs.replace(design, surface=surface)
+
+
+def _with_guide(design: SurfaceDesign, base: Path) -> SurfaceDesign:
+    surface = design.surface
+    if surface.guide_file is None:
+        return design
+    points = read_polyline(base / surface.guide_file, least=3 if surface.guide_closed else 2)
+    return msgspec.structs.replace(design, surface=msgspec.structs.replace(surface, guide=points.tolist(), guide_file=None))
 
 
 def _with_points(design: Design, base: Path) -> Design:

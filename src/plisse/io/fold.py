@@ -2,40 +2,49 @@
 
 Creases are M or V with their fold angle. Rulings are F with fold angle 0, as FOLD wants unfolded edges,
 although the discrete paper bends there a little: their true angles stand in `edges_plisse:rulingAngle`.
-`edges_plisse:kind` says which edges lie on creases (on the boundary too), and `vertices_plisse:source` which
-vertices were one before a closed structure was cut open.
+`edges_plisse:kind` says which edges lie on creases (on the boundary too) and which on seams; `vertices_plisse:source`
+which vertices were one before a structure was cut open or parted along its seams.
 """
 
 import json
+from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 
 import msgspec
 import numpy as np
 
-from plisse.draw.sheet import front_up
 from plisse.errors import InvalidStructure
 from plisse.io.atomic import written
 from plisse.io.coordinates import checked_coordinates
-from plisse.io.labels import labelled_topology
+from plisse.io.curved_creases import curved_document
+from plisse.io.labels import folding_evidence, labelled_topology
+from plisse.io.model import Model
 from plisse.measure.folds import assignments, fold_angles
+from plisse.recipe import MILLIMETRES
 from plisse.structure.cut import Cut
+from plisse.structure.front import front_up
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Topology
 
-__all__ = ["fold_document", "read_fold", "write_fold"]
+__all__ = ["PERCENT", "fold_bytes", "fold_document", "load_fold", "read_fold", "write_fold"]
 
+PERCENT = "frame_plisse:percent"
 EVIDENCE = {"M": 1.0, "V": 1.0, "F": -1.0, "J": -1.0}
+MILLIMETRES_OF_OTHERS = {"pt": 25.4 / 72, "um": 1e-3, "nm": 1e-6}
 
 
-def write_fold(structure: PleatedStructure, path: str | Path, *, title: str = "", units: str = "mm") -> None:
+def write_fold(structure: PleatedStructure, path: str | Path, *, title: str = "", units: str = "mm",
+               curves: bool = False) -> None:
     """Write the structure as FOLD; coordinates keep all digits and equal structures give equal bytes.
 
-    Raises InvalidStructure when there is no development, PlisseError where the file cannot be written.
+    `curves` adds the creases as splines. Raises InvalidStructure when there is no development, PlisseError where the
+    file cannot be written.
     """
     document = fold_document(structure, title=title, units=units)
+    document = curved_document(document, structure) if curves else document
     with written(path) as aside:
-        aside.write_bytes(_text(document))
+        aside.write_bytes(fold_bytes(document))
 
 
 def fold_document(structure: PleatedStructure, *, title: str = "", units: str = "mm") -> dict:
@@ -56,7 +65,7 @@ def fold_document(structure: PleatedStructure, *, title: str = "", units: str = 
         "edges_vertices": topology.edges.vertices.tolist(),
         "edges_assignment": letters.tolist(),
         "edges_foldAngle": degrees.tolist(),
-        "edges_plisse:kind": np.where(topology.edges.is_crease, "crease", "ruling").tolist(),
+        "edges_plisse:kind": _kinds(structure).tolist(),
         "edges_plisse:rulingAngle": bends.tolist(),
         "faces_vertices": topology.faces,
         "file_frames": [{
@@ -73,6 +82,14 @@ def fold_document(structure: PleatedStructure, *, title: str = "", units: str = 
     return document
 
 
+def _kinds(structure: PleatedStructure) -> np.ndarray:
+    """crease, ruling or seam (E,) for every edge of the opened structure."""
+    edges, count = structure.opened.topology.edges, structure.topology.vertex_count
+    ends, seams = np.sort(structure.cut.source[edges.vertices], axis=1), np.sort(structure.topology.seams, axis=1)
+    on_seam = np.isin(ends @ [count, 1], seams @ [count, 1])
+    return np.where(on_seam, "seam", np.where(edges.is_crease, "crease", "ruling"))
+
+
 def _folds(folded: PleatedStructure) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Letters, fold angles of creases and bends of rulings in degrees, one per edge; 0 for the other kind."""
     edges = folded.topology.edges
@@ -83,8 +100,8 @@ def _folds(folded: PleatedStructure) -> tuple[np.ndarray, np.ndarray, np.ndarray
     return letters, np.where(folded_here, degrees, 0.0), np.where(edges.is_crease, 0.0, degrees)
 
 
-def _text(document: dict) -> bytes:
-    """One line per property, so that people and version control can read it."""
+def fold_bytes(document: dict) -> bytes:
+    """The text of a FOLD document, one line per property, so that people and version control can read it."""
     lines = [msgspec.json.encode(key) + b": " + msgspec.json.encode(value) for key, value in document.items()]
     return b"{\n" + b",\n".join(lines) + b"\n}\n"
 
@@ -92,17 +109,33 @@ def _text(document: dict) -> bytes:
 def read_fold(path: str | Path) -> PleatedStructure:
     """The structure in a FOLD file, closed again along the cut; lengths in the file's unit.
 
-    In files of others the M and V edges tell the creases from the rulings; without a folded form the flat
-    sheet stands for it. Raises InvalidStructure for files that are no FOLD or no quads between creases.
+    Of the frames of a motion the one nearest to the designed state is taken. In files of others the M and V edges tell
+    the creases from the rulings, or else the sharper folds. Raises InvalidStructure for files that are no FOLD, have no
+    folded form, or no quads between creases.
     """
+    return load_fold(path).structure
+
+
+def load_fold(path: str | Path) -> Model:
+    """The structure in a FOLD file with its unit and title; units that designs do not know become millimetres."""
     path = Path(path)
     frames = _frames(_load(path))
-    folded = next((f for f in frames if "foldedForm" in _list(f, "frame_classes")), frames[0])
+    structure = _structure(frames, path)
+    unit, title = (value if isinstance(value := frames[0].get(key), str) else "" for key in ("frame_unit", "file_title"))
+    if unit in MILLIMETRES_OF_OTHERS:
+        scale = MILLIMETRES_OF_OTHERS[unit]
+        flat = None if structure.development is None else structure.development * scale
+        structure = replace(structure, vertices=structure.vertices * scale, development=flat)
+    return Model(structure, unit if unit in MILLIMETRES else "mm", title)
+
+
+def _structure(frames: list[dict], path: Path) -> PleatedStructure:
+    folded = _folded(frames)
     if "creasePattern" in _list(folded, "frame_classes"):
         raise InvalidStructure(f"{path.name} holds a crease pattern, but no folded form; save that frame too")
     faces = _faces(folded, path)
     vertices = _coordinates(folded, path, 3)
-    topology = labelled_topology(len(vertices), faces, _evidence(folded))
+    topology = labelled_topology(len(vertices), faces, _evidence(folded) or folding_evidence(vertices, faces))
     flat = next((f for f in frames if "creasePattern" in _list(f, "frame_classes")), None)
     development = None if flat is None or flat is folded else _coordinates(flat, path, 2)
     if development is not None and len(development) != len(vertices):
@@ -112,15 +145,17 @@ def read_fold(path: str | Path) -> PleatedStructure:
         return PleatedStructure(topology, vertices, development=development)
     if not isinstance(source, list) or not all(type(vertex) is int for vertex in source):
         raise InvalidStructure(f"vertices_plisse:source in {path.name} does not describe a cut structure")
-    return _welded(topology, vertices, development, np.array(source, np.int64), path)
+    return _welded(topology, vertices, development, np.array(source, np.int64), _seams(folded), path)
 
 
 def _welded(topology: Topology, vertices: np.ndarray, development: np.ndarray | None, source: np.ndarray,
-            path: Path) -> PleatedStructure:
+            seams: np.ndarray, path: Path) -> PleatedStructure:
     used, first = np.unique(source, return_index=True)
     if source.shape != (len(vertices),) or not np.array_equal(used, np.arange(len(used))):
         raise InvalidStructure(f"vertices_plisse:source in {path.name} does not describe a cut structure")
-    closed = Topology(len(used), source[topology.quads], tuple(source[hub] for hub in topology.hubs))
+    if seams.min(initial=0) < 0 or seams.max(initial=0) >= len(source):
+        raise InvalidStructure(f"an edge of kind seam in {path.name} names a vertex outside 0 to {len(source) - 1}")
+    closed = Topology(len(used), source[topology.quads], tuple(source[hub] for hub in topology.hubs), seams=source[seams])
     _ = closed.edges
     return PleatedStructure(closed, vertices[first], Cut(topology, source), development)
 
@@ -129,7 +164,7 @@ def _load(path: Path) -> dict:
     try:
         data = json.loads(path.read_text(encoding="utf-8-sig"))
     except FileNotFoundError:
-        raise InvalidStructure(f"there is no file {path}; give a FOLD or OBJ file") from None
+        raise InvalidStructure(f"there is no file {path}; give a FOLD, OBJ or 3DM file") from None
     except OSError as error:
         raise InvalidStructure(f"{path} cannot be read ({error.strerror})") from None
     except (UnicodeDecodeError, ValueError, RecursionError):
@@ -149,6 +184,15 @@ def _frames(data: dict) -> list[dict]:
         inherits = frame.get("frame_inherit") and isinstance(parent, int) and 0 <= parent < len(frames)
         frames.append(frames[parent] | frame if inherits else frame)
     return frames
+
+
+def _folded(frames: list[dict]) -> dict:
+    """The first folded form, in a motion the one nearest to 100 percent; without any the first frame."""
+    def off(frame: dict) -> float:
+        percent = frame.get(PERCENT)
+        return abs(percent - 100) if isinstance(percent, int | float) else 0.0
+
+    return min((frame for frame in frames if "foldedForm" in _list(frame, "frame_classes")), key=off, default=frames[0])
 
 
 def _faces(frame: dict, path: Path) -> list[list[int]]:
@@ -172,14 +216,24 @@ def _coordinates(frame: dict, path: Path, dimension: int) -> np.ndarray:
     return checked_coordinates(rows, path)
 
 
+def _seams(frame: dict) -> np.ndarray:
+    """Edges (S, 2) that are seams according to our labels; both copies of each."""
+    pairs = zip(_list(frame, "edges_vertices"), _list(frame, "edges_plisse:kind"), strict=False)
+    edges = [edge for edge, kind in pairs if kind == "seam" and isinstance(edge, list) and len(edge) == 2
+             and all(type(vertex) is int for vertex in edge)]
+    return np.array(edges, np.int64).reshape(-1, 2)
+
+
 def _evidence(frame: dict):
-    """A function that is large on creases: from our labels, or else from what others assign to the edges."""
+    """A function that is large on creases: from our labels, or else from what others assign; None if nobody says."""
     edges, kinds = _list(frame, "edges_vertices"), _list(frame, "edges_plisse:kind")
     if len(kinds) == len(edges) and kinds:
         values = [1.0 if kind == "crease" else -1.0 for kind in kinds]
     else:
         values = [EVIDENCE.get(letter, 0.0) if isinstance(letter, str) else 0.0
                   for letter in _list(frame, "edges_assignment")]
+    if not any(values):
+        return None
     pairs = zip(edges, values, strict=False)
     known = {frozenset(edge): value for edge, value in pairs
              if isinstance(edge, list) and all(type(vertex) is int for vertex in edge)}

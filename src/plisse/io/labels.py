@@ -10,9 +10,10 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from plisse.errors import InvalidStructure
+from plisse.measure.folds import fold_angles
 from plisse.structure.topology import Topology
 
-__all__ = ["Corners", "labelled_topology", "oriented"]
+__all__ = ["Corners", "folding_evidence", "labelled_topology", "oriented"]
 
 
 class Corners:
@@ -79,6 +80,23 @@ def labelled_topology(vertex_count: int, faces: list[list[int]], evidence) -> To
                         tuple(np.array(face) for face in turned if len(face) > 4))
     _ = topology.edges
     return topology
+
+
+def folding_evidence(vertices: np.ndarray, faces: list[list[int]]):
+    """Evidence from the shape: how far (radians) the surface of vertices (V, 3) folds at an edge.
+
+    Pleats fold further than the smooth strips between them bend at their rulings.
+    """
+    topology = labelled_topology(len(vertices), faces, lambda start, end: np.zeros(len(start)))
+    key = np.sort(topology.edges.vertices, axis=1) @ [len(vertices), 1]
+    order = np.argsort(key)
+    angle = np.abs(fold_angles(topology, vertices))[order]
+
+    def evidence(start: np.ndarray, end: np.ndarray) -> np.ndarray:
+        wanted = np.minimum(start, end) * len(vertices) + np.maximum(start, end)
+        return angle[np.searchsorted(key[order], wanted)]
+
+    return evidence
 
 
 def _mean_by_family(values: np.ndarray, piece: np.ndarray, family: np.ndarray) -> np.ndarray:

@@ -6,12 +6,30 @@ import re
 import msgspec
 
 from plisse.errors import InvalidDesign
-from plisse.recipe import ClosedForm, Curve, Design, Pattern, Solve, Surface, SurfaceDesign, SurfacePattern
+from plisse.recipe import (
+    ClosedForm,
+    Curve,
+    Design,
+    March,
+    Move,
+    Parallel,
+    Pattern,
+    Pull,
+    Section,
+    Solve,
+    Strips,
+    Surface,
+    SurfaceDesign,
+    SurfacePattern,
+)
 
 __all__ = ["refuse_non_finite", "sentence"]
 
-SECTIONS = {"": Design, "pattern": Pattern, "solve": Solve}
-SURFACE_SECTIONS = {"": SurfaceDesign, "surface": Surface, "pattern": SurfacePattern}
+SECTIONS = {"": Design, "pattern": Pattern, "march": March, "solve": Solve, "parallel": Parallel,
+            "strips": Strips}
+SURFACE_SECTIONS = {"": SurfaceDesign, "surface": Surface, "pattern": SurfacePattern, "solve": Solve,
+                    "strips": Strips}
+TABLES = {"surface.guide_section": Section, "surface.handles": Pull, "parallel.moves": Move}
 KINDS = {"curve": Curve, "closed_form": ClosedForm}
 
 
@@ -50,6 +68,8 @@ def sentence(message: str, data: dict) -> str:
 
 def _struct_at(path: str, data: dict) -> type | None:
     section = path.split(".")[0].split("[")[0]
+    if (table := TABLES.get(re.sub(r"\[.*", "", path))) is not None:
+        return table
     if section not in KINDS:
         return (SURFACE_SECTIONS if "surface" in data else SECTIONS).get(section)
     entry = data.get(section)
@@ -72,8 +92,8 @@ def _hint(path: str, data: dict) -> str:
     """What the key wants, from the description that its type carries."""
     if path.removesuffix(".kind") in KINDS:
         return "kind = one of " + ", ".join(_kinds(path))
-    section, _, key = re.sub(r"\[.*", "", path).partition(".")
-    struct = _struct_at(section if key else "", data)
+    section, _, key = re.sub(r"\[.*?\]", "", path).rpartition(".")
+    struct = _struct_at(section, data)
     if struct is None:
         return ""
     field = next((f for f in msgspec.structs.fields(struct) if f.name == (key or section)), None)

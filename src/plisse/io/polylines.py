@@ -11,10 +11,10 @@ __all__ = ["read_polyline"]
 READERS = ".csv, .txt, .npy or .obj"
 
 
-def read_polyline(path: str | Path) -> np.ndarray:
+def read_polyline(path: str | Path, least: int = 3) -> np.ndarray:
     """Points (N, 3) of the polyline in a file; a closed OBJ polyline does not repeat its first point.
 
-    Raises InvalidDesign when the file is missing, of another type, or does not hold rows of three numbers.
+    Raises InvalidDesign when the file is missing, of another type, or does not hold `least` rows of three numbers.
     """
     path = Path(path)
     suffix = path.suffix.lower()
@@ -30,8 +30,8 @@ def read_polyline(path: str | Path) -> np.ndarray:
         points = {".npy": _read_npy, ".obj": _read_obj}.get(suffix, _read_rows)(path)
     except (OSError, ValueError, UnicodeDecodeError, IndexError) as error:
         raise InvalidDesign(f"{path.name} does not hold a polyline ({error}); give rows of three numbers") from None
-    if points.ndim != 2 or points.shape[1] != 3 or len(points) < 3:
-        raise InvalidDesign(f"{path.name} holds an array of shape {points.shape}; give at least 3 rows of x, y, z")
+    if points.ndim != 2 or points.shape[1] != 3 or len(points) < least:
+        raise InvalidDesign(f"{path.name} holds an array of shape {points.shape}; give at least {least} rows of x, y, z")
     if not np.isfinite(points).all():
         raise InvalidDesign(f"row {int(np.argmin(np.isfinite(points).all(axis=1)))} of {path.name} is not finite")
     return points.astype(float)

@@ -11,13 +11,12 @@ from pathlib import Path
 
 import numpy as np
 
-from plisse.draw.drawing import Drawing, Layer, Line
+from plisse.draw.drawing import Drawing, Layer
+from plisse.draw.shapes import Arc, Line, Shape, Spline, Text
 from plisse.io.atomic import written
 
-__all__ = ["STROKES", "write_svg"]
+__all__ = ["write_svg"]
 
-STROKES = {"mountain": "#ff0000", "valley": "#0000ff", "boundary": "#000000", "ruling": "#ffff00",
-           "flat": "#ff00ff"}
 SVG = "http://www.w3.org/2000/svg"
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
 
@@ -36,27 +35,57 @@ def write_svg(drawing: Drawing, path: str | Path) -> None:
     if drawing.title:
         ET.SubElement(root, f"{{{SVG}}}title").text = drawing.title
     for layer in drawing.layers:
-        root.append(_group(layer, height, stroke_width=max(0.1, np.hypot(width, height) / 4000)))
+        root.append(_group(layer, height))
     ET.indent(root, " ")
     with written(path) as aside:
         aside.write_bytes(ET.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n")
 
 
-def _group(layer: Layer, height: float, stroke_width: float) -> ET.Element:
+def _group(layer: Layer, height: float) -> ET.Element:
     """A layer; the stroke stands on every path too, because Origami Simulator looks for it there."""
+    stroke = layer.stroke
+    dash = {"stroke-dasharray": " ".join(map(_number, stroke.dash))} if stroke.dash else {}
     group = ET.Element(f"{{{SVG}}}g", {
         f"{{{INKSCAPE}}}groupmode": "layer", f"{{{INKSCAPE}}}label": layer.name, "id": layer.name,
-        "fill": "none", "stroke-linejoin": "round", "stroke-width": _number(stroke_width)})
-    stroke = STROKES.get(layer.name, "#808080")
+        "fill": "none", "stroke-linejoin": "round", "stroke-width": _number(stroke.width)} | dash)
     for line in layer.lines:
-        ET.SubElement(group, f"{{{SVG}}}path", {"fill": "none", "stroke": stroke, "d": _path(line, height)})
+        ET.SubElement(group, f"{{{SVG}}}path", {"fill": "none", "stroke": stroke.colour, "d": _path(line, height)})
+    for text in layer.texts:
+        group.append(_text(text, height, stroke.colour))
     return group
 
 
-def _path(line: Line, height: float) -> str:
-    points = np.column_stack([line.points[:, 0], height - line.points[:, 1]])
-    pairs = " ".join(f"{_number(x)},{_number(y)}" for x, y in points.tolist())
-    return f"M{pairs}" + (" Z" if line.closed else "")
+def _path(shape: Shape, height: float) -> str:
+    if isinstance(shape, Line):
+        return "M" + _pairs(shape.points, height) + (" Z" if shape.closed else "")
+    if isinstance(shape, Spline):
+        first, rest = shape.controls[:1], shape.controls[1:]
+        return f"M{_pairs(first, height)} C{_pairs(rest, height)}" + (" Z" if shape.closed else "")
+    return _arc(shape, height)
+
+
+def _arc(arc: Arc, height: float) -> str:
+    """Two halves, so that a full circle has ends too; counterclockwise is sweep 0 where y points down."""
+    angle = np.linspace(arc.start, arc.end, 3)
+    joints = np.array(arc.centre) + arc.radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    start, *ends = (_pairs(joint[None], height) for joint in joints)
+    radius = _number(arc.radius)
+    return f"M{start}" + "".join(f" A{radius},{radius} 0 0 0 {end}" for end in ends) + (" Z" if arc.is_circle else "")
+
+
+def _text(text: Text, height: float, colour: str) -> ET.Element:
+    x, y = _number(text.at[0]), _number(height - text.at[1])
+    attributes = {"x": x, "y": y, "font-size": _number(text.font_size), "font-family": "Helvetica, Arial, sans-serif",
+                  "text-anchor": text.anchor, "fill": colour, "stroke": "none"}
+    if text.angle:
+        attributes["transform"] = f"rotate({_number(-np.degrees(text.angle))} {x} {y})"
+    element = ET.Element(f"{{{SVG}}}text", attributes)
+    element.text = text.words
+    return element
+
+
+def _pairs(points: np.ndarray, height: float) -> str:
+    return " ".join(f"{_number(x)},{_number(height - y)}" for x, y in points.tolist())
 
 
 def _number(value: float) -> str:

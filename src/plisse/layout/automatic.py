@@ -1,7 +1,7 @@
 """Layouts of fitted inclination that may cover a whole surface: sizes, centres, and nets with their masks."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from plisse.geometry.mesh import ReferenceMesh
 from plisse.geometry.vectors import norm
 from plisse.layout.columns import Net, woven
 from plisse.layout.coverage import AreaSamples, located
-from plisse.layout.rows import ChartedSurface, Rows, circles, rows_between
+from plisse.layout.rows import ChartedSurface, Rows, circles, following, preceding, rows_between
 from plisse.layout.rows_relax import Relaxation, relaxed
 from plisse.structure.masks import grown
 
@@ -27,7 +27,8 @@ UPRIGHT_LIMIT, OVERHANG_LIMIT = np.radians(45.0), np.radians(58.0)
 class Sizes:
     """Width s and amplitude d in model units, θ preferred and its limit in radians, weight of the curvature residual.
 
-    `column` is the distance of columns in widths.
+    `column` is the distance of columns in widths. The first crease lies `above` the surface or below; with `inside` no
+    row reaches beyond its boundary.
     """
 
     width: float
@@ -36,6 +37,8 @@ class Sizes:
     limit: float = UPRIGHT_LIMIT
     curvature: float = 1.0
     column: float = 0.8
+    above: bool = False
+    inside: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,28 +96,39 @@ def starting_rows(mesh: ReferenceMesh, surface: ChartedSurface, centre: np.ndarr
 def lay_out(rows: Rows, samples: AreaSamples, surface: ChartedSurface, sizes: Sizes, label: str = "",
             grow: int = 1) -> Layout:
     """Relax rows, weave columns across them, and keep the quads that meet the surface and `grow` around them."""
-    options = Relaxation(curvature=sizes.curvature, limit=sizes.limit, preferred=sizes.theta)
+    between = rows.closed and rows.spacing is not None
+    options = Relaxation(curvature=sizes.curvature, limit=sizes.limit, preferred=sizes.theta,
+                         held=sizes.inside and between)
     rows, theta = relaxed(rows, surface, sizes.width, options)
-    net = woven(rows, theta, surface, sizes.column * sizes.width)
+    net = replace(woven(rows, theta, surface, sizes.column * sizes.width), above=sizes.above)
     mask = meeting(net, samples, sizes, grow)
+    if sizes.inside and not between:
+        mask &= _within(net, surface)
     net = net.shifted(surface, sizes.amplitude)
     return Layout(sizes, net, net.zigzag(sizes.amplitude), mask, label)
 
 
 def meeting(net: Net, samples: AreaSamples, sizes: Sizes, grow: int) -> np.ndarray:
     """Quads (n−1, m or m−1) of a net that meet the sampled surface, with neighbours, where gaps are sensible."""
-    creases, columns = net.shape
+    columns = net.shape[1]
     width = columns if net.closed else columns - 1
-    corner = net.points
-    quads = np.stack([corner[:-1], np.roll(corner, -1, axis=1)[:-1], np.roll(corner, -1, axis=1)[1:], corner[1:]],
-                     axis=2)[:, :width]
+    strips = len(net.gaps)
+    one, other = preceding(net.points, net.is_ring), following(net.points, net.is_ring)
+    quads = np.stack([one, np.roll(one, -1, axis=1), np.roll(other, -1, axis=1), other], axis=2)[:, :width]
     where = located(samples, quads.reshape(-1, 4, 3), sizes.width)
     found = where >= 0
-    area = np.bincount(where[found], samples.areas[found], (creases - 1) * width).reshape(creases - 1, width)
-    meets = grown(area > LEAST_AREA * sizes.column * sizes.width**2, net.closed, grow)
+    area = np.bincount(where[found], samples.areas[found], strips * width).reshape(strips, width)
+    meets = grown(area > LEAST_AREA * sizes.column * sizes.width**2, net.closed, grow, net.is_ring)
     gaps = net.gaps / sizes.width
     sensible = (gaps > GAPS[0]) & (gaps < GAPS[1])
     return meets & (sensible & np.roll(sensible, -1, axis=1))[:, :width]
+
+
+def _within(net: Net, surface: ChartedSurface) -> np.ndarray:
+    """Quads (n − 1, m or m − 1) of a net all of whose corners lie inside the boundary of the surface."""
+    known = surface.project(net.points.reshape(-1, 3)).known.reshape(net.shape)
+    pairs = following(known, net.is_ring) & preceding(known, net.is_ring)
+    return (pairs & np.roll(pairs, -1, axis=1))[:, :net.shape[1] - (not net.closed)]
 
 
 def _goes_round_once(loop: np.ndarray) -> bool:

@@ -1,12 +1,12 @@
 """Columns across rows along orthogonal trajectories, and the zigzag over the net of both (§3.3, Fig. 11)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from plisse.geometry.vectors import dot, norm, unit
-from plisse.layout.rows import ChartedSurface, Rows, along, lifted
+from plisse.layout.rows import ChartedSurface, Rows, along, following, lifted, preceding
 
 __all__ = ["Net", "woven"]
 
@@ -18,8 +18,8 @@ NEWTON_STEPS = 5
 class Net:
     """Rows crossed with columns on a surface: `points`, `normals`, `outward` (n, m, 3), inclinations `theta` (n, m).
 
-    `gaps` (n−1, m) are the distances between rows along columns. The points are the reference of the structure: the
-    zigzag leaves them by the amplitude.
+    `gaps` (n−1, m) are the distances between rows along columns, n in a ring, whose last row the first one follows. The points are the reference of the structure: the
+    zigzag leaves them by the amplitude, the first crease `above` or below.
     """
 
     points: np.ndarray
@@ -28,6 +28,8 @@ class Net:
     theta: np.ndarray
     gaps: np.ndarray
     closed: bool
+    above: bool = False
+    is_ring: bool = False
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -36,22 +38,28 @@ class Net:
 
     def shifted(self, surface: ChartedSurface, amplitude: float) -> "Net":
         """The net with every row moved by a quarter of s1 − s2, so that strips mirror in their creases (Fig. 11)."""
-        shift = _sides(len(self.theta)) * mirror_shift(self._row_gaps(), self.theta, amplitude)
+        shift = self._sides * mirror_shift(self._row_gaps(), self.theta, amplitude)
         moved = self.points + shift[..., None] * self.outward
         points = surface.project(moved.reshape(-1, 3))
         positions, normals = (part.reshape(*self.shape, 3) for part in (points.positions, points.normals))
         outward = _outward(positions, normals, self.closed, self.outward)
-        return Net(positions, normals, outward, self.theta, self.gaps, self.closed)
+        return replace(self, points=positions, normals=normals, outward=outward)
 
     def zigzag(self, amplitude: float) -> np.ndarray:
         """Crease points (n, m, 3): rows moved off the surface in turn, by ±d (cos θ n + sin θ m)."""
         cosine, sine = np.cos(self.theta)[..., None], np.sin(self.theta)[..., None]
         direction = cosine * self.normals + sine * self.outward
-        return self.points + amplitude * _sides(len(self.theta))[..., None] * direction
+        return self.points + amplitude * self._sides[..., None] * direction
+
+    @property
+    def _sides(self) -> np.ndarray:
+        """−1 and +1 in turn (n, 1)."""
+        return np.where((np.arange(len(self.theta)) + self.above) % 2, 1.0, -1.0)[:, None]
 
     def _row_gaps(self) -> np.ndarray:
         """Mean distance (n, m) from each row to its neighbours."""
-        padded = np.concatenate([self.gaps[:1], self.gaps, self.gaps[-1:]])
+        first, last = (self.gaps[-1:], self.gaps[:0]) if self.is_ring else (self.gaps[:1], self.gaps[-1:])
+        padded = np.concatenate([first, self.gaps, last])
         return 0.5 * (padded[1:] + padded[:-1])
 
 
@@ -71,22 +79,20 @@ def woven(rows: Rows, theta: np.ndarray, surface: ChartedSurface, spacing: float
     the middle.
     """
     geometry = lifted(surface, rows.places).positions.reshape(*rows.radii.shape, 3)
-    fields = np.concatenate([geometry, rows.places, theta[..., None]], axis=-1)
+    fields = np.concatenate([geometry, rows.places - rows.trend(rows.angles), theta[..., None]], axis=-1)
     splines = [_spline(rows, field) for field in fields]
-    middle = _middle(len(theta), weight)
-    parameters = _trajectories(rows, splines, middle, spacing)
+    if rows.is_ring:
+        parameters = _around(rows, splines, spacing)
+    else:
+        parameters = _trajectories(rows, splines, _middle(len(theta), weight), spacing)
     values = np.stack([spline(at) for spline, at in zip(splines, parameters, strict=True)])
-    points = lifted(surface, values[..., 3:5])
+    points = lifted(surface, values[..., 3:5] + rows.trend(parameters))
     positions, normals = (part.reshape(*parameters.shape, 3) for part in (points.positions, points.normals))
     radial = np.gradient(positions, axis=0)
     outward = np.cross(along(positions, rows.closed), normals)
     outward = _outward(positions, normals, rows.closed, np.sign(np.median(dot(outward, radial))) * outward)
-    return Net(positions, normals, outward, values[..., 5], norm(np.diff(positions, axis=0)), rows.closed)
-
-
-def _sides(count: int) -> np.ndarray:
-    """−1 and +1 in turn (n, 1): the first crease lies below."""
-    return np.where(np.arange(count) % 2, 1.0, -1.0)[:, None]
+    gaps = norm(following(positions, rows.is_ring) - preceding(positions, rows.is_ring))
+    return Net(positions, normals, outward, values[..., 5], gaps, rows.closed, is_ring=rows.is_ring)
 
 
 def _outward(positions: np.ndarray, normals: np.ndarray, closed: bool, like: np.ndarray) -> np.ndarray:
@@ -98,7 +104,7 @@ def _outward(positions: np.ndarray, normals: np.ndarray, closed: bool, like: np.
 
 def _spline(rows: Rows, values: np.ndarray) -> CubicSpline:
     if rows.closed:
-        angles = np.append(rows.angles, rows.angles[0] + 2 * np.pi)
+        angles = np.append(rows.angles, rows.angles[0] + rows.period)
         return CubicSpline(angles, np.concatenate([values, values[:1]]), bc_type="periodic")
     return CubicSpline(rows.angles, values, bc_type="natural")
 
@@ -111,7 +117,7 @@ def _middle(count: int, weight: np.ndarray | None) -> int:
 
 def _trajectories(rows: Rows, splines: list[CubicSpline], middle: int, spacing: float) -> np.ndarray:
     """Angles (n, m') at which orthogonal trajectories meet the rows."""
-    end = rows.angles[0] + 2 * np.pi if rows.closed else rows.angles[-1]
+    end = rows.angles[0] + rows.period if rows.closed else rows.angles[-1]
     dense = np.linspace(rows.angles[0], end, 8 * len(rows.angles) + 1)
     length = np.concatenate([[0.0], np.cumsum(norm(np.diff(splines[middle](dense)[:, :3], axis=0)))])
     count = int(np.clip(length[-1] / spacing, FEWEST, MOST))
@@ -125,6 +131,13 @@ def _trajectories(rows: Rows, splines: list[CubicSpline], middle: int, spacing: 
             angles[row + towards] = _opposite(splines[row], splines[row + towards], angles[row], longest)
             row += towards
     return angles
+
+
+def _around(rows: Rows, splines: list[CubicSpline], spacing: float) -> np.ndarray:
+    """Angles (n, m') of columns around a ring: trajectories from its first row, moved evenly so that they meet again."""
+    open_ended = _trajectories(rows, [*splines, splines[0]], 0, spacing)
+    fraction = np.linspace(0, 1, len(open_ended))[:, None]
+    return (open_ended - fraction * (open_ended[-1] - open_ended[0]))[:-1]
 
 
 def _opposite(row: CubicSpline, neighbour: CubicSpline, angles: np.ndarray, longest: float) -> np.ndarray:

@@ -9,7 +9,9 @@ from plisse.geometry.vectors import cross_flat, dot, norm, unit
 
 __all__ = ["AreaSamples", "covered", "located"]
 
-NEIGHBOURS = 12
+NEIGHBOURS = 12  # centres of quads among which the one that covers a point is sought
+SLIMNESS = 4  # further centres per unit of length over width
+MOST = 400
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +46,7 @@ def located(samples: AreaSamples, quads: np.ndarray, reach: float) -> np.ndarray
     if len(quads) == 0:
         return found
     centres = quads.mean(axis=1)
-    candidates = cKDTree(centres).query(samples.points, k=min(NEIGHBOURS, len(quads)))[1].reshape(len(found), -1)
+    candidates = cKDTree(centres).query(samples.points, k=_candidates(quads))[1].reshape(len(found), -1)
     x, y = _frames(samples.normals)
     for column in candidates.T:
         open_ = np.flatnonzero(found < 0)
@@ -60,6 +62,14 @@ def covered(samples: AreaSamples, vertices: np.ndarray, quads: np.ndarray, reach
     """Fraction of the sampled area that lies under quads (Q, 4) over vertices (V, 3), seen along the normals."""
     hit = located(samples, vertices[quads], reach) >= 0
     return float(samples.areas[hit].sum() / samples.total)
+
+
+def _candidates(quads: np.ndarray) -> int:
+    """How many quads have to be looked at: over long thin ones the centres of many others are nearer."""
+    longest = norm(np.roll(quads, -1, axis=1) - quads).max(axis=1)
+    area = 0.5 * norm(np.cross(quads[:, 2] - quads[:, 0], quads[:, 3] - quads[:, 1]))
+    slimness = float(np.quantile(longest**2 / np.maximum(area, 1e-9 * longest**2), 0.98))
+    return min(int(NEIGHBOURS + SLIMNESS * slimness), MOST, len(quads))
 
 
 def _frames(normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -11,16 +11,16 @@ from functools import cached_property
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from plisse.errors import Infeasible
+from plisse.errors import Infeasible, InvalidDesign
 from plisse.geometry.polyline import arc_length
 from plisse.geometry.surface import Surface
 from plisse.geometry.vectors import dot, norm, unit
 from plisse.layout.guides import Guide
+from plisse.layout.positions import crease_positions
 from plisse.layout.stops import Trace
 from plisse.layout.trace import trace
-from plisse.layout.widths import mirrored_width
 
-__all__ = ["Family", "crease_positions", "fan", "shoot"]
+__all__ = ["Family", "fan", "shoot"]
 
 LARGEST_TURN = np.radians(12.0)
 TUNING_STEPS = 3
@@ -34,7 +34,7 @@ class Family:
 
     `closed`: the last curve is followed by the first, and `spacing` has as many entries as there are curves. `turns`
     are the angles in radians by which the starting directions were turned. Curves follow each other along
-    side · t × n.
+    side · t × n; the first crease lies `above` the surface or below.
     """
 
     curves: tuple[Trace, ...]
@@ -43,6 +43,7 @@ class Family:
     closed: bool
     turns: np.ndarray
     side: float = 1.0
+    above: bool = False
 
     @property
     def closed_curves(self) -> bool:
@@ -60,52 +61,16 @@ class Family:
         return np.array([spline.x[[0, -1]] for spline in self.splines])
 
 
-def crease_positions(length: float, closed: bool, *, theta: float, width: float, amplitude: float,
-                     creases: int | None = None) -> tuple[np.ndarray, np.ndarray]:
-    """Where creases cross a guide of the given length, and the widths of the strips between them.
-
-    Climbing strips have the width s1 = `width`, falling ones s2 with sin θ = d (1/s2 − 1/s1) (Fig. 11). On open guides
-    they stand about the middle, as many as there is room for unless `creases` says how many. Around closed guides their
-    number is even and the width follows from it. Raises Infeasible where they do not fit.
-    """
-    pair = width + _falling(width, theta, amplitude)
-    if closed:
-        count = max(4, 2 * round(length / pair)) if creases is None else creases
-        if count % 2 or count < 4:
-            raise Infeasible(f"a closed family needs an even number of creases, at least 4, not {count}")
-        width = _climbing(2 * length / count, theta, amplitude)
-        spacing = np.tile([width, _falling(width, theta, amplitude)], count // 2)
-        return np.concatenate([[0.0], np.cumsum(spacing)[:-1]]), spacing
-    count = int(2 * np.floor(length / pair) + (length % pair >= width) + 1) if creases is None else creases
-    spacing = np.tile([width, pair - width], count // 2 + 1)[:max(count - 1, 0)]
-    if count < 3 or spacing.sum() > length * (1 + 1e-9):
-        fits = int(2 * np.floor(length / pair) + (length % pair >= width) + 1)
-        raise Infeasible(f"the guide is {length:.4g} long and has room for {fits} creases, not for {max(count, 3)}: give "
-                         "a longer guide, a smaller width or fewer creases")
-    return 0.5 * (length - spacing.sum()) + np.concatenate([[0.0], np.cumsum(spacing)]), spacing
-
-
-def _falling(width: float, theta: float, amplitude: float) -> float:
-    """Width s2 of the falling strip beside a climbing one of width s1."""
-    return float(mirrored_width(np.array(width), np.array(theta), amplitude))
-
-
-def _climbing(pair: float, theta: float, amplitude: float) -> float:
-    """Width s1 of the climbing strip when both together are `pair` wide."""
-    slope = np.sin(theta) / amplitude
-    half = 0.5 * pair
-    return pair - half if slope * half < 1e-9 else float(half + (np.sqrt((slope * half) ** 2 + 1) - 1) / slope)
-
-
 def shoot(surface: Surface, guide: Guide, *, theta: float, width: float, amplitude: float, creases: int | None = None,
           angle: float = np.pi / 2, tuned: bool = True, length: float | None = None, step: float | None = None,
-          beyond: bool = False) -> Family:
+          beyond: bool = False, above: bool = False) -> Family:
     """The family of inclination theta (radians) that leaves the guide at an angle, at most `length` to each side.
 
     With `tuned` every starting direction is turned by up to 12° so that gaps along neighbouring curves stay even.
     """
+    _check(theta)
     positions, spacing = crease_positions(guide.length, guide.closed, theta=theta, width=width, amplitude=amplitude,
-                                          creases=creases)
+                                          creases=creases, above=above)
     starts, tangents = guide.at(positions)
     at = surface.project(starts)
     along = unit(tangents - dot(tangents, at.normals)[:, None] * at.normals)
@@ -124,18 +89,19 @@ def shoot(surface: Surface, guide: Guide, *, theta: float, width: float, amplitu
         return curves
 
     turns = _tuned(traced, len(starts), spacing, guide.closed) if tuned else np.zeros(len(starts))
-    return Family(traced(turns, step), theta, spacing, guide.closed, turns)
+    return Family(traced(turns, step), theta, spacing, guide.closed, turns, above=above)
 
 
 def fan(surface: Surface, point, *, theta: float, creases: int, radius: float, sector: tuple[float, float] | None = None,
         towards=None, side: float = 1.0, length: float | None = None, step: float | None = None,
-        beyond: bool = False) -> Family:
+        beyond: bool = False, above: bool = False) -> Family:
     """Curves of inclination theta (radians) that leave a point in all directions, or in those of a sector (radians).
 
     Angles are counted about the normal from the direction `towards`. Pleats lean clockwise, seen from above, for the
     side +1, otherwise counterclockwise. Widths are nominal at the distance `radius` from
     the point, where a disk would have them. A full fan is a closed family and needs an even number of creases.
     """
+    _check(theta)
     if sector is None and (creases % 2 or creases < 4):
         raise Infeasible(f"a closed family needs an even number of creases, at least 4, not {creases}")
     at = surface.project(np.asarray(point, dtype=float)[None])
@@ -151,7 +117,13 @@ def fan(surface: Surface, point, *, theta: float, creases: int, radius: float, s
                    step=radius / 40 if step is None else step, beyond=beyond)
     strips = creases if sector is None else creases - 1
     spacing = np.full(strips, radius * (high - low) / strips)
-    return Family(curves, theta, spacing, sector is None, np.zeros(creases), side)
+    return Family(curves, theta, spacing, sector is None, np.zeros(creases), side, above)
+
+
+def _check(theta: float) -> None:
+    if not 0 < theta < np.pi / 2:
+        raise InvalidDesign(f"pattern.theta is {np.degrees(theta):g}; creases guided on a surface need an inclination above "
+                            "0 and below 90 degrees")
 
 
 def _tuned(traced: Callable[[np.ndarray], tuple[Trace, ...]], count: int, spacing: np.ndarray,

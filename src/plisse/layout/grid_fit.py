@@ -16,9 +16,9 @@ class GridFit:
     Every stencil (R, k) lists the nodes of R equations; coefficients may change from step to step, stencils not.
     """
 
-    def __init__(self, shape: tuple[int, int], closed: bool, stencils: Sequence[np.ndarray]):
+    def __init__(self, shape: tuple[int, int], closed: bool, stencils: Sequence[np.ndarray], is_ring: bool = False):
         self._shape = shape
-        ordering = grid(*shape, closed_creases=closed).ordering
+        ordering = grid(*shape, closed_creases=closed, closed_family=is_ring).ordering
         assert ordering is not None
         rank = np.empty(shape[0] * shape[1], np.int64)
         rank[np.argsort(ordering, kind="stable")] = np.arange(len(rank))
@@ -52,10 +52,11 @@ def along_pairs(shape: tuple[int, int], closed: bool) -> np.ndarray:
     return np.stack([index[:, :width].ravel(), last[:, :width].ravel()], axis=1)
 
 
-def across_pairs(shape: tuple[int, int]) -> np.ndarray:
-    """Neighbours (R, 2) in the same column of successive rows."""
+def across_pairs(shape: tuple[int, int], is_ring: bool = False) -> np.ndarray:
+    """Neighbours (R, 2) in the same column of successive rows; in a ring the first row follows the last."""
     index = nodes(shape).reshape(shape)
-    return np.stack([index[:-1].ravel(), index[1:].ravel()], axis=1)
+    count = shape[0] if is_ring else shape[0] - 1
+    return np.stack([index[:count].ravel(), np.roll(index, -1, axis=0)[:count].ravel()], axis=1)
 
 
 def along_triples(shape: tuple[int, int], closed: bool) -> np.ndarray:

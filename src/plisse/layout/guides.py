@@ -54,6 +54,8 @@ def guide_through(surface: Surface, points, closed: bool = False) -> Guide:
     points = np.asarray(points, dtype=float)
     if points.ndim != 2 or points.shape[1] != 3 or not np.isfinite(points).all() or len(points) < (3 if closed else 2):
         raise InvalidDesign(f"a guide needs {'three' if closed else 'two'} points [x, y, z] or more")
+    if closed and len(points) > 3 and norm(points[-1] - points[0]) <= 1e-9 * surface.diagonal:
+        points = points[:-1]
     if not norm(np.diff(points, axis=0)).min() > 1e-9 * surface.diagonal:
         raise InvalidDesign("two successive points of the guide are the same")
     if len(points) == 2:

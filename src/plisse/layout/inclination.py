@@ -17,10 +17,12 @@ LEAST_SLOPE = 0.02
 class InclinationFit:
     """Minimises (6.5 s (κ_g sin θ − κ_n cos θ))² + 10 s² |∇θ|² over a grid of rows, with |θ| kept below a limit."""
 
-    def __init__(self, shape: tuple[int, int], closed: bool, width: float, limit: float, preferred: float = 0.0):
+    def __init__(self, shape: tuple[int, int], closed: bool, width: float, limit: float, preferred: float = 0.0,
+                 is_ring: bool = False):
         self._width, self._limit, self._preferred = width, limit, preferred
-        self._along, self._across = along_pairs(shape, closed), across_pairs(shape)
-        self._fit = GridFit(shape, closed, [nodes(shape), nodes(shape), nodes(shape), self._along, self._across])
+        self._along, self._across = along_pairs(shape, closed), across_pairs(shape, is_ring)
+        self._fit = GridFit(shape, closed, [nodes(shape), nodes(shape), nodes(shape), self._along, self._across],
+                            is_ring)
 
     def improved(self, theta: np.ndarray, geometry: RowGeometry, steps: int = 2) -> np.ndarray:
         """Inclinations (n, m) after Gauss–Newton steps from theta (n, m), in radians."""

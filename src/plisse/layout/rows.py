@@ -1,7 +1,7 @@
 """Rows over a surface, as radii about a centre in its chart: where the creases of a whole surface start."""
 
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Protocol, Self
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
@@ -9,7 +9,7 @@ from scipy.ndimage import gaussian_filter1d
 from plisse.geometry.surface import Surface, SurfacePoints
 from plisse.geometry.vectors import dot, norm, unit
 
-__all__ = ["ChartedSurface", "RowGeometry", "Rows", "circles", "lifted", "rows_between"]
+__all__ = ["ChartedSurface", "RowGeometry", "Rows", "circles", "column_count", "lifted", "rows_between"]
 
 SECTORS = 72
 FEWEST_COLUMNS, MOST_COLUMNS = 32, 120
@@ -17,7 +17,10 @@ COLUMN_SPACING = 1.1  # columns while rows are relaxed, in widths
 
 
 class ChartedSurface(Surface, Protocol):
-    """A surface with a chart, continued beyond its boundary: `project` keeps the chart coordinates of a point."""
+    """A surface with a chart, continued beyond its boundary."""
+
+    def at(self, places: np.ndarray) -> SurfacePoints:
+        """The surface at chart coordinates (N, 2)."""
 
     def to_plane(self, points: np.ndarray) -> np.ndarray:
         """Chart coordinates and height (N, 3) of points (N, 3)."""
@@ -28,8 +31,7 @@ class ChartedSurface(Surface, Protocol):
 
 def lifted(surface: ChartedSurface, places: np.ndarray) -> SurfacePoints:
     """The surface at chart coordinates (…, 2), flattened to (N, …)."""
-    flat = places.reshape(-1, 2)
-    return surface.project(surface.to_space(np.column_stack([flat, np.zeros(len(flat))])))
+    return surface.at(places.reshape(-1, 2))
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,9 +53,27 @@ class Rows:
         direction = np.stack([np.cos(self.angles), np.sin(self.angles)], axis=-1)
         return self.centre + self.radii[..., None] * direction
 
-    def with_radii(self, radii: np.ndarray) -> "Rows":
+    @property
+    def period(self) -> float:
+        """After how much angle closed rows come back."""
+        return 2 * np.pi
+
+    @property
+    def is_ring(self) -> bool:
+        """Whether the last row is followed by the first."""
+        return False
+
+    def trend(self, angles: np.ndarray) -> np.ndarray:
+        """The part of the places (…, 2) that grows steadily along rows: none."""
+        return np.zeros((*angles.shape, 2))
+
+    def with_radii(self, radii: np.ndarray) -> Self:
         """The same rays with other radii."""
         return replace(self, radii=radii)
+
+    def moved(self, move: np.ndarray, least: float) -> "Rows":
+        """Rows with radii changed by `move` (n, m), none below `least`."""
+        return self.with_radii(np.maximum(self.radii + move, least))
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +92,7 @@ class RowGeometry:
     normal: np.ndarray
     steps: np.ndarray
     stretch: np.ndarray
+    is_ring: bool = False
 
     @classmethod
     def of(cls, rows: Rows, surface: ChartedSurface) -> "RowGeometry":
@@ -88,13 +109,24 @@ class RowGeometry:
         bend = acceleration / np.maximum(steps, 1e-300)[..., None] ** 2
         bending = points.bending.reshape(*shape, 3, 3)
         normal = np.einsum("...i,...ij,...j->...", tangents, bending, tangents)
-        return cls(positions, tangents, normals, outward, -dot(bend, outward), normal, steps, dot(radial, outward))
+        return cls(positions, tangents, normals, outward, -dot(bend, outward), normal, steps, dot(radial, outward),
+                   rows.is_ring)
 
     @property
     def gaps(self) -> np.ndarray:
-        """Distances (n−1, m) between neighbouring rows, across them."""
-        across = unit(self.outward[1:] + self.outward[:-1])
-        return dot(self.positions[1:] - self.positions[:-1], across)
+        """Distances (n−1, m) between neighbouring rows, across them; in a ring (n, m)."""
+        across = unit(following(self.outward, self.is_ring) + preceding(self.outward, self.is_ring))
+        return dot(following(self.positions, self.is_ring) - preceding(self.positions, self.is_ring), across)
+
+
+def preceding(values: np.ndarray, is_ring: bool) -> np.ndarray:
+    """Values (n, …) of the first row of every strip."""
+    return values if is_ring else values[:-1]
+
+
+def following(values: np.ndarray, is_ring: bool) -> np.ndarray:
+    """Values (n, …) of the second row of every strip."""
+    return np.roll(values, -1, axis=0) if is_ring else values[1:]
 
 
 def along(values: np.ndarray, closed: bool) -> np.ndarray:
@@ -125,13 +157,13 @@ def circles(surface: ChartedSurface, places: np.ndarray, centre: np.ndarray, wid
     high = radius.max() + pad * width
     mean = float(radius.mean())
     if closed:
-        columns = _columns(2 * np.pi * mean / width)
+        columns = column_count(2 * np.pi * mean / width)
         angles = np.arange(columns) * (2 * np.pi / columns) - np.pi
     else:
         first, last = _span(angle, seen)
         first, last = first - pad * width / mean, last + pad * width / mean
         last = min(last, first + 2 * np.pi - 0.02)
-        angles = np.linspace(first, last, _columns((last - first) * mean / width))
+        angles = np.linspace(first, last, column_count((last - first) * mean / width))
     inner, outer = np.full(len(angles), low), np.full(len(angles), high)
     return _filled(surface, places, centre, angles, inner, outer, width, closed)
 
@@ -143,7 +175,7 @@ def rows_between(surface: ChartedSurface, inner: np.ndarray, outer: np.ndarray, 
     Rows are interpolated, as many as the mean distance asks for, or `parallel` to the inner loop, going on beyond
     the outer one until it is covered everywhere.
     """
-    columns = _columns(2 * np.pi * float(norm(inner - centre).mean() + norm(outer - centre).mean()) / 2 / width)
+    columns = column_count(2 * np.pi * float(norm(inner - centre).mean() + norm(outer - centre).mean()) / 2 / width)
     angles = np.arange(columns) * (2 * np.pi / columns) - np.pi
     low, high = (gaussian_filter1d(_radii_of(loop - centre, angles), columns / 45, mode="wrap")
                  for loop in (inner, outer))
@@ -168,7 +200,8 @@ def _continued(at: np.ndarray, lengths: np.ndarray, radii: np.ndarray) -> np.nda
     return np.interp(at, lengths, radii) + np.maximum(at - lengths[-1], 0.0)
 
 
-def _columns(widths: float) -> int:
+def column_count(widths: float) -> int:
+    """How many columns rows get while they are relaxed, for a length in widths."""
     return int(np.clip(widths / COLUMN_SPACING, FEWEST_COLUMNS, MOST_COLUMNS))
 
 

@@ -106,7 +106,7 @@ def _march(surface: Surface, starts: np.ndarray, directions: np.ndarray, cotange
     if crossings:
         owners += [before.index for before, _ in crossings]
         rows.append(_on_boundary(surface, crossings, step))
-    return _collected(np.concatenate(rows), np.concatenate(owners), stops)
+    return _collected(np.concatenate(rows), np.concatenate(owners), stops, step)
 
 
 def _step(surface: Surface, state: _State, step: float | np.ndarray) -> tuple[_State, np.ndarray]:
@@ -183,16 +183,16 @@ def _on_boundary(surface: Surface, crossings: list[tuple[_State, _State]], step:
     return best
 
 
-def _collected(points: np.ndarray, owners: np.ndarray, stops: np.ndarray) -> tuple[Trace, ...]:
+def _collected(points: np.ndarray, owners: np.ndarray, stops: np.ndarray, step: float) -> tuple[Trace, ...]:
     if len(stops) == 0:
         return ()
     order = np.argsort(owners, kind="stable")
     pieces = np.split(points[order], np.cumsum(np.bincount(owners, minlength=len(stops)))[:-1])
-    return tuple(Trace(_without_stub(piece), stop) for piece, stop in zip(pieces, stops, strict=True))
+    return tuple(Trace(_without_stub(piece, step), stop) for piece, stop in zip(pieces, stops, strict=True))
 
 
-def _without_stub(points: np.ndarray) -> np.ndarray:
-    """Leave out the last point but one where the boundary cut the last step to almost nothing."""
-    if len(points) < 3 or norm(points[-1] - points[-2]) > 0.05 * norm(points[-2] - points[-3]):
+def _without_stub(points: np.ndarray, step: float) -> np.ndarray:
+    """Leave out the last point but one where the boundary cut the last step to almost nothing; a start remains."""
+    if len(points) < 2 or norm(points[-1] - points[-2]) > 0.05 * step:
         return points
-    return np.delete(points, -2, axis=0)
+    return points[:1] if len(points) == 2 else np.delete(points, -2, axis=0)

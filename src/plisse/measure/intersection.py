@@ -6,6 +6,7 @@ import shapely
 from plisse.geometry.vectors import dot
 from plisse.measure.planarity import face_normals
 from plisse.structure.topology import Topology
+from plisse.structure.triangles import triangulated
 
 __all__ = ["intersecting_faces"]
 
@@ -19,24 +20,13 @@ def intersecting_faces(topology: Topology, vertices: np.ndarray) -> np.ndarray:
     Candidate pairs come from a tree of bounding boxes; each is decided by edges of one face against the triangles
     of the other. Faces that only touch do not count.
     """
-    triangles, face = _triangles(topology)
+    triangles, face = triangulated(topology)
     candidates = _straddling(_box_pairs(topology, vertices), topology, vertices)
     found = []
     for start in range(0, len(candidates), CHUNK):
         pairs = candidates[start:start + CHUNK]
         found.append(pairs[_pierce(pairs, triangles, face, vertices)])
     return np.concatenate(found) if found else np.empty((0, 2), np.int64)
-
-
-def _triangles(topology: Topology) -> tuple[np.ndarray, np.ndarray]:
-    """Triangles (T, 3) of all faces, each fan from its first vertex, and their faces (T,), sorted by face."""
-    quads = topology.quads
-    parts = [quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)]
-    faces = [np.repeat(np.arange(len(quads)), 2)]
-    for k, hub in enumerate(topology.hubs):
-        parts.append(np.stack([np.full(len(hub) - 2, hub[0]), hub[1:-1], hub[2:]], axis=1))
-        faces.append(np.full(len(hub) - 2, len(quads) + k))
-    return np.concatenate(parts), np.concatenate(faces)
 
 
 def _box_pairs(topology: Topology, vertices: np.ndarray) -> np.ndarray:

@@ -1,11 +1,13 @@
 """Overlaps of the development (paper, Figs 19 and 27): legitimate on the desk, not on one sheet of paper."""
 
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 import shapely
 
 from plisse.structure.chains import boundary_loops
+from plisse.structure.parts import parts
 from plisse.structure.topology import Topology
 
 __all__ = ["Overlap", "development_overlap"]
@@ -20,9 +22,23 @@ class Overlap:
 
 
 def development_overlap(topology: Topology, flat: np.ndarray) -> Overlap:
-    """Overlap of a development (V, 2) without inverted faces.
+    """Overlap of a development (V, 2) without inverted faces: of a piece with itself, or of one piece with another."""
+    pieces = parts(topology)
+    for piece in pieces:
+        found = _of_one_piece(piece.topology, flat[piece.vertices])
+        if found.overlaps:
+            return found
+    sheets = [shapely.union_all([shapely.Polygon(flat[piece.vertices[loop]]) for loop in boundary_loops(piece.topology)])
+              for piece in pieces if len(pieces) > 1]
+    for one, other in combinations(sheets, 2):
+        if one.intersection(other).area > 1e-9 * one.area:
+            place = one.intersection(other).representative_point()
+            return Overlap(True, (float(place.x), float(place.y)))
+    return Overlap(False)
 
-    An immersed disk covers no place twice exactly when its boundary is a simple curve, so only boundary loops are
+
+def _of_one_piece(topology: Topology, flat: np.ndarray) -> Overlap:
+    """An immersed disk covers no place twice exactly when its boundary is a simple curve, so only boundary loops are
     tested; several loops bound the holes of a masked grid.
     """
     loops = sorted((shapely.LinearRing(flat[loop]) for loop in boundary_loops(topology)),

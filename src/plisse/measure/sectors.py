@@ -16,9 +16,9 @@ def sector_angles(topology: Topology, vertices: np.ndarray) -> np.ndarray:
 
 
 def angle_defect(topology: Topology, vertices: np.ndarray) -> np.ndarray:
-    """Σω − 2π per vertex (V,), 0 on the boundary: w_angle of Fig. 21, zero when developable (2)."""
+    """Σω − 2π per vertex (V,), 0 on boundary and seams: w_angle of Fig. 21, zero when developable (2)."""
     sums = np.bincount(topology.corners.vertex, sector_angles(topology, vertices), topology.vertex_count)
-    return np.where(topology.is_boundary, 0.0, sums - 2 * np.pi)
+    return np.where(topology.is_inner, sums - 2 * np.pi, 0.0)
 
 
 def principal_defect(topology: Topology, vertices: np.ndarray) -> np.ndarray:

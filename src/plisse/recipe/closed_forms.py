@@ -6,7 +6,7 @@ from msgspec import Meta
 
 from plisse.recipe.fields import Length, Strict
 
-__all__ = ["ClosedForm", "Cones", "ConicCreases", "Miura"]
+__all__ = ["ClosedForm", "Cones", "ConicCreases", "HelicalPleats", "Miura"]
 
 
 class Cones(Strict, tag_field="kind", tag="cones", kw_only=True, frozen=True):
@@ -48,4 +48,19 @@ class Miura(Strict, tag_field="kind", tag="miura", kw_only=True, frozen=True):
     fold: Annotated[float, Meta(gt=1, lt=89, description="degrees between 1 and 89")] = 50.0
 
 
-ClosedForm = Cones | ConicCreases | Miura
+class HelicalPleats(Strict, tag_field="kind", tag="helical", kw_only=True, frozen=True):
+    """Pleats on coaxial helices of equal pitch, from `radius` outward; one screw takes every column to the next.
+
+    `slope` in degrees is the rise of the first strip against the radius, `width` the length of all rulings.
+    """
+
+    creases: Annotated[int, Meta(ge=3, le=1000, description="a whole number from 3 to 1000")] = 9
+    samples: Annotated[int, Meta(ge=3, le=20_000, description="a whole number from 3 to 20000")] = 100
+    radius: Length = 30.0
+    pitch: Annotated[float, Meta(ge=-1e9, le=1e9, description="rise per turn in model units, up to 1e9")] = 90.0
+    turns: Annotated[float, Meta(ge=0.01, le=50, description="a number of turns from 0.01 to 50")] = 1.0
+    width: Length = 5.0
+    slope: Annotated[float, Meta(gt=1, lt=89, description="degrees between 1 and 89")] = 50.0
+
+
+ClosedForm = Cones | ConicCreases | HelicalPleats | Miura

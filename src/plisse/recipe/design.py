@@ -8,6 +8,9 @@ from msgspec import Meta
 from plisse.recipe.closed_forms import ClosedForm
 from plisse.recipe.curves import Curve
 from plisse.recipe.fields import Inclination, Length, Strict, Units, without_none
+from plisse.recipe.march import March
+from plisse.recipe.parallel import Parallel
+from plisse.recipe.strips import Strips
 
 __all__ = ["Design", "Pattern", "Solve"]
 
@@ -42,12 +45,16 @@ class Solve(Strict, kw_only=True, frozen=True):
 
 
 class Design(Strict, kw_only=True, frozen=True):
-    """A whole recipe, as `report.json` repeats it with all defaults: curve and pattern, or a closed form."""
+    """A whole recipe, as `report.json` repeats it with all defaults: curve and pattern, curve and
+    march, or a closed form."""
 
     curve: Curve | None = None
     pattern: Pattern | None = None
+    march: March | None = None
     closed_form: ClosedForm | None = None
     solve: Solve = msgspec.field(default_factory=Solve)
+    parallel: Parallel | None = None
+    strips: Strips | None = None
     units: Units = "mm"
 
     def to_dict(self) -> dict:

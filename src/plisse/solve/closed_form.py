@@ -4,8 +4,9 @@ from functools import singledispatch
 
 import numpy as np
 
-from plisse.recipe import Cones, ConicCreases, Miura
+from plisse.recipe import Cones, ConicCreases, HelicalPleats, Miura
 from plisse.structure.exact import alternating_cones, conic_creases, miura
+from plisse.structure.helical import helical_pleats
 from plisse.structure.pleated import PleatedStructure
 
 __all__ = ["closed_form"]
@@ -30,6 +31,12 @@ def _(form: ConicCreases) -> PleatedStructure:
                               fold=float(np.radians(form.fold)), start=float(np.radians(form.start)),
                               step=float(np.radians(form.step)))
     return structure.with_vertices(form.size * structure.vertices)
+
+
+@closed_form.register
+def _(form: HelicalPleats) -> PleatedStructure:
+    return helical_pleats(form.creases, form.samples, radius=form.radius, pitch=form.pitch, width=form.width,
+                          slope=float(np.radians(form.slope)), turns=form.turns)
 
 
 @closed_form.register

@@ -3,7 +3,7 @@
 import numpy as np
 
 from plisse.solve.flatten import laid_out, unfold
-from plisse.structure.cut import Cut, cut_along, cut_open, uncut
+from plisse.structure.cut import Cut, cut_along, cut_apart, cut_open, uncut
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Polyline, Topology
 
@@ -16,9 +16,11 @@ def best_cut(structure: PleatedStructure, percent: float | None = None) -> Cut:
     """The transverse polyline along which a closed structure opens into the smallest sheet without overlap.
 
     `percent` of the crease's length names the cut instead. Simply connected structures are not cut; structures whose
-    family closes are cut along a crease, others with holes along a short graph of edges.
+    family closes are cut along a crease, others with holes along a short graph of edges. Seams part a structure anyway.
     """
     topology = structure.topology
+    if len(topology.seams):
+        return cut_apart(topology)
     if topology.euler_characteristic >= 1:
         return uncut(topology)
     if not all(line.closed for line in (topology.creases if percent is None else topology.creases[:1])):

@@ -7,8 +7,6 @@ middle, positions follow from directions, and isometry steps on all vertices at 
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import breadth_first_order
 
 from plisse.geometry.vectors import dot, norm, unit
 from plisse.leastsquares.kernel import Rows, Term
@@ -17,6 +15,8 @@ from plisse.measure.isometry import isometry_defect
 from plisse.measure.planarity import face_normals
 from plisse.solve.energies import given_length
 from plisse.structure.cut import Cut
+from plisse.structure.face_tree import face_tree
+from plisse.structure.parts import parts
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Topology
 
@@ -28,13 +28,17 @@ GOOD_ENOUGH = 3e-14
 def flatten(structure: PleatedStructure, cut: Cut | None = None) -> PleatedStructure:
     """The structure with its development, faces counterclockwise, lying in the first quadrant along the x axis.
 
-    A closed structure must bring its cut. Where the structure is not exactly developable the development is the
-    least-squares one.
+    A closed structure must bring its cut; what a cut takes apart lies one piece above the other, a mean edge apart.
+    Where the structure is not exactly developable the development is the least-squares one.
     """
     cut = structure.cut if cut is None else cut
-    vertices = structure.vertices[cut.source]
-    flat = refine_isometry(cut.topology, vertices, unfold(cut.topology, vertices))
-    return replace(structure, cut=cut, development=laid_out(cut.topology, flat))
+    development, above = np.zeros((len(cut.source), 2)), 0.0
+    for part in parts(cut.topology):
+        vertices = structure.vertices[cut.source[part.vertices]]
+        flat = refine_isometry(part.topology, vertices, unfold(part.topology, vertices))
+        development[part.vertices] = laid_out(part.topology, flat) + np.array([0.0, above])
+        above = float(development[part.vertices, 1].max()) + structure.mean_edge
+    return replace(structure, cut=cut, development=development)
 
 
 def unfold(topology: Topology, vertices: np.ndarray) -> np.ndarray:
@@ -42,7 +46,7 @@ def unfold(topology: Topology, vertices: np.ndarray) -> np.ndarray:
     local, following = _local_coordinates(topology, vertices), _following(topology)
     direction = np.angle(local[following] - local)
     rotation, translation = np.zeros(topology.face_count), np.zeros(topology.face_count, complex)
-    for child, parent, at_child, at_parent in _face_tree(topology):
+    for child, parent, at_child, at_parent in face_tree(topology).levels:
         # the two faces run through their common edge in opposite directions
         rotation[child] = rotation[parent] + direction[at_parent] - direction[at_child] + np.pi
         joint = local[at_parent], local[following[at_child]]
@@ -111,36 +115,3 @@ def _following(topology: Topology) -> np.ndarray:
     following = np.arange(len(face)) + 1
     following[np.append(first[1:], len(face)) - 1] = first
     return following
-
-
-def _face_tree(topology: Topology) -> list[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]]:
-    """Breadth-first levels from a middle face: children, parents and their corners at the common edge."""
-    corners = topology.corners
-    low, high = np.minimum(corners.vertex, corners.next), np.maximum(corners.vertex, corners.next)
-    order = np.argsort(low * np.int64(topology.vertex_count) + high, kind="stable")
-    twin = np.flatnonzero((np.diff(low[order]) == 0) & (np.diff(high[order]) == 0))
-    a, b = order[twin], order[twin + 1]
-    start, end = np.concatenate([a, b]), np.concatenate([b, a])
-    # corner + 1, because a stored zero is no entry
-    link = coo_array((start + 1.0, (corners.face[start], corners.face[end])), shape=(topology.face_count,) * 2).tocsr()
-    root = _middle(link)
-    sequence, parent = breadth_first_order(link, root, directed=False)
-    depth = np.zeros(topology.face_count, np.int64)
-    for face, above in zip(sequence[1:].tolist(), parent[sequence[1:]].tolist(), strict=True):
-        depth[face] = depth[above] + 1
-    children = sequence[1:]
-    at_parent = np.asarray(link[parent[children], children]).ravel().astype(np.int64) - 1
-    at_child = np.asarray(link[children, parent[children]]).ravel().astype(np.int64) - 1
-    cuts = np.flatnonzero(np.diff(depth[children])) + 1
-    split = [np.split(column, cuts) for column in (children, parent[children], at_child, at_parent)]
-    return list(zip(*split, strict=True))
-
-
-def _middle(link) -> int:
-    """A face half way along a longest path: far from a far face's far face."""
-    end = breadth_first_order(link, 0, directed=False)[0][-1]
-    sequence, parent = breadth_first_order(link, end, directed=False)
-    path = [int(sequence[-1])]
-    while path[-1] != end:
-        path.append(int(parent[path[-1]]))
-    return path[len(path) // 2]

@@ -23,7 +23,7 @@ from plisse.structure.grid import grid
 from plisse.structure.masks import cleaned
 from plisse.structure.topology import Topology
 
-__all__ = ["Masked", "MaskedGrid", "Trim", "solve_masked"]
+__all__ = ["Masked", "MaskedGrid", "Trim", "irregular", "relaxed", "solve_masked"]
 
 CONVERGED = 1e-10
 FEWEST_QUADS = 30
@@ -52,7 +52,8 @@ class Trim:
 class MaskedGrid:
     """The quads of a grid (n, m) that a mask keeps, over the vertices they use.
 
-    `used` (V,) are the numbers l·m + i of the vertices in the whole grid; their order is kept.
+    `used` (V,) are the numbers l·m + i of the vertices in the whole grid; their order is kept. `seams` are the columns
+    of vertices along which the topology has a seam. In a ring the last crease borders on the first.
     """
 
     shape: tuple[int, int]
@@ -60,16 +61,23 @@ class MaskedGrid:
     mask: np.ndarray
     topology: Topology
     used: np.ndarray
+    seams: tuple[int, ...] = ()
+    is_ring: bool = False
 
     @classmethod
-    def of(cls, shape: tuple[int, int], closed: bool, mask: np.ndarray) -> "MaskedGrid":
-        """Compact topology of a masked grid."""
-        whole = grid(*shape, closed_creases=closed, mask=mask)
+    def of(cls, shape: tuple[int, int], closed: bool, mask: np.ndarray, seams: tuple[int, ...] = (),
+           is_ring: bool = False) -> "MaskedGrid":
+        """Compact topology of a masked grid, with seams at those columns where quads meet."""
+        whole = grid(*shape, closed_creases=closed, closed_family=is_ring, mask=mask)
         used = np.unique(whole.quads)
         number = np.full(whole.vertex_count, -1)
         number[used] = np.arange(len(used))
         assert whole.ordering is not None
-        return cls(shape, closed, mask, Topology(len(used), number[whole.quads], ordering=whole.ordering[used]), used)
+        rows, columns = np.nonzero(mask & np.roll(mask, 1, axis=1))
+        rows, columns = rows[on_seam := np.isin(columns, seams)], columns[on_seam]
+        apart = number[np.stack([rows * shape[1] + columns, (rows + 1) % shape[0] * shape[1] + columns], axis=1)]
+        topology = Topology(len(used), number[whole.quads], (), whole.ordering[used], apart)
+        return cls(shape, closed, mask, topology, used, tuple(np.unique(columns).tolist()), is_ring)
 
     @property
     def rows(self) -> np.ndarray:
@@ -102,25 +110,25 @@ class Masked:
 
 
 def solve_masked(start: np.ndarray, normals: np.ndarray, mask: np.ndarray, closed: bool,
-                 trim: Trim = Trim(), weights: tuple[float, ...] = WEIGHTS) -> Masked | None:
+                 trim: Trim = Trim(), weights: tuple[float, ...] = WEIGHTS, seams: tuple[int, ...] = (),
+                 is_ring: bool = False) -> Masked | None:
     """Exact structure near a zigzag `start` (n, m, 3) on the quads of a mask, or on most of them.
 
-    `normals` (n, m, 3) are those of the reference: the mid-surface is held along them.
-
-
-    None when fewer than 30 quads are left.
+    `normals` (n, m, 3) are those of the reference: the mid-surface is held along them. `seams` are columns of vertices
+    along which the sheet is cut apart. In a ring the last crease borders on the first. None when fewer than 30 quads
+    are left.
     """
     shape = start.shape[:2]
     rest = np.ascontiguousarray(start.reshape(-1, 3))
     current = rest.copy()
-    mask = cleaned(mask, closed)
+    mask = cleaned(mask, closed, seams, is_ring)
     history: list[tuple[int, float]] = []
     found: Masked | None = None
     for _ in range(trim.rounds):
         if mask.sum() < FEWEST_QUADS:
             break
-        part = MaskedGrid.of(shape, closed, mask)
-        vertices, defect = _relaxed(part, rest, current, normals.reshape(-1, 3), weights, trim.hold)
+        part = MaskedGrid.of(shape, closed, mask, seams, is_ring)
+        vertices, defect = relaxed(part, rest, current, normals.reshape(-1, 3), weights, trim.hold)
         current[part.used] = vertices
         faulty = _faulty(part, vertices, defect < CONVERGED, trim)
         history.append((len(part.topology.quads), defect))
@@ -129,7 +137,7 @@ def solve_masked(start: np.ndarray, normals: np.ndarray, mask: np.ndarray, close
             break
         lost = np.zeros_like(mask)
         lost[mask] = faulty
-        mask = cleaned(mask & ~lost, closed)
+        mask = cleaned(mask & ~lost, closed, seams, is_ring)
         weights = () if found.is_exact else AGAIN
     return found
 
@@ -165,7 +173,7 @@ def _faulty(part: MaskedGrid, vertices: np.ndarray, converged: bool, trim: Trim)
     return (defect > np.quantile(defect, 1 - trim.worst)) | (bad & (defect > RESISTING))
 
 
-def _relaxed(part: MaskedGrid, rest: np.ndarray, current: np.ndarray, normals: np.ndarray,
+def relaxed(part: MaskedGrid, rest: np.ndarray, current: np.ndarray, normals: np.ndarray,
              weights: tuple[float, ...], hold: float) -> tuple[np.ndarray, float]:
     """Vertices (V, 3), polished if that converges and annealed otherwise, and the largest residual after polishing."""
     topology = part.topology

@@ -9,7 +9,7 @@ from plisse.solve.attempt import Attempt, Start
 from plisse.solve.coarse_to_fine import CoarseToFine
 from plisse.solve.explicit import constructed
 
-__all__ = ["GENERAL", "PRINCIPAL", "SECOND_CHANCE", "Judged", "Outcome", "solve"]
+__all__ = ["GENERAL", "GUIDED_PRINCIPAL", "PRINCIPAL", "SECOND_CHANCE", "Judged", "Outcome", "solve"]
 
 Way = Callable[[Start], Attempt]
 
@@ -18,10 +18,13 @@ GENTLE = CoarseToFine("optimised in small steps", columns=60, steps=2,
                       fairness={"along": 1.0, "same_side": 0.09, "across": 0.03})
 STIFF = CoarseToFine("optimised with stiff strips", columns=60, steps=2,
                      fairness={"along": 1.0, "same_side": 0.3, "across": 0.1})
+STIFFER = CoarseToFine("optimised with stiffer strips", columns=60, steps=3,
+                       fairness={"along": 1.0, "same_side": 1.0, "across": 0.3})
 
 GENERAL: tuple[Way, ...] = (OPTIMISED, GENTLE)
 PRINCIPAL: tuple[Way, ...] = (OPTIMISED, constructed, GENTLE)
 SECOND_CHANCE: tuple[Way, ...] = (OPTIMISED, GENTLE, STIFF)
+GUIDED_PRINCIPAL: tuple[Way, ...] = (GENTLE, STIFF, STIFFER)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,15 +1,17 @@
 """A whole surface pleated: layouts scanned, solved as they come, and the best refined (§3.1, Figs 20 and 23).
 
-Coverage at full regularity counts first, then nearness, then opening angles that one can fold.
+Where one piece does not reach, sheets are cut apart along seams and solved together.
 """
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import chain, islice
 
 import numpy as np
 
 from plisse.errors import Infeasible
 from plisse.geometry.mesh import ReferenceMesh
+from plisse.geometry.parametric import ParametricSurface
 from plisse.geometry.vectors import dot
 from plisse.layout.automatic import (
     OVERHANG_LIMIT,
@@ -23,69 +25,27 @@ from plisse.layout.automatic import (
 )
 from plisse.layout.coverage import AreaSamples, covered
 from plisse.layout.rows import ChartedSurface
+from plisse.layout.straight import Straight, directions
 from plisse.measure.folds import crease_opening_angles
 from plisse.measure.inclination import crease_inclinations
 from plisse.measure.mid_surface import MidSurfaceDeviation, mid_surface_deviation
 from plisse.measure.planarity import face_normals
 from plisse.measure.regularity import OPENING_RANGE
 from plisse.measure.sectors import sector_angles
-from plisse.solve.masked import Masked, Trim, solve_masked
+from plisse.solve.candidate import FULL, Candidate
+from plisse.solve.masked import Trim, solve_masked
+from plisse.solve.seams import seam_defects
+from plisse.solve.search import Jobs, best_of, stages
 from plisse.structure.pleated import PleatedStructure
 
 __all__ = ["Candidate", "WholeSurface", "whole_surface"]
 
 FOLDABLE = np.radians(15.0)
 REACH = 3.0  # how far from the reference the structure counts as lying over it, in widths
-FULL = 0.995  # coverage that is as good as all
 AMPLITUDE = 0.8  # in widths: lower pleats cover less, higher ones open less
 SCAN = Trim(rounds=7, hold=0.1)
-HOLDS = (0.03, 0.3, 0.0)
-FINALISTS = 3
-FARNESS = 0.04  # coverage that one amplitude of mean deviation is worth
-TORN = 0.003  # coverage that a hole costs: the sheet must be cut up to it
-NEAR = 0.3  # mean deviation in amplitudes below which nothing more is asked for
-COMFORTABLE = {"sector": 20.0, "opening": 30.0}  # degrees above which larger angles are no better
 
 Progress = Callable[[str, float], None]
-
-
-@dataclass(frozen=True, eq=False)
-class Candidate:
-    """A layout and what came of it: coverage, deviation of the mid-surface, smallest angles in radians.
-
-    `holes` are those that the reference has not.
-    """
-
-    layout: Layout
-    solved: Masked
-    coverage: float
-    deviation: MidSurfaceDeviation
-    least_opening: float
-    least_sector: float
-    holes: int = 0
-
-    @property
-    def mean_deviation(self) -> float:
-        """Mean deviation in amplitudes."""
-        return self.deviation.mean / self.layout.sizes.amplitude
-
-    @property
-    def rank(self) -> tuple[bool, float]:
-        """Sort key: soundness, then coverage and nearness weighed against each other, with a little for openness."""
-        ease = sum(min(np.degrees(angle) / COMFORTABLE[name], 1.0)
-                   for name, angle in (("sector", self.least_sector), ("opening", self.least_opening)))
-        lost = FARNESS * self.mean_deviation + TORN * self.holes
-        return self.solved.is_sound, min(self.coverage, FULL) - lost + 0.005 * ease
-
-    @property
-    def is_full(self) -> bool:
-        """Whether nothing is left to be covered."""
-        return self.solved.is_sound and self.coverage >= FULL and self.holes == 0
-
-    @property
-    def is_done(self) -> bool:
-        """Whether nothing is left to be covered or brought nearer."""
-        return self.is_full and self.mean_deviation < NEAR
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,14 +93,19 @@ class _Task:
             return False
         return True
 
-    def layout(self, centre: np.ndarray | None, sizes: Sizes) -> Layout:
-        rows = starting_rows(self.mesh, self.surface, centre, sizes.width)
+    def layout(self, centre: Straight | np.ndarray | None, sizes: Sizes) -> Layout:
+        if isinstance(centre, Straight):
+            assert isinstance(self.surface, ParametricSurface)
+            return lay_out(centre.rows(self.surface, sizes.width, inside=sizes.inside), self.samples, self.surface, sizes,
+                           centre.label(self.surface))
+        rows = starting_rows(self.mesh, self.surface, centre, sizes.width, parallel=not sizes.inside)
         label = "rows between the boundaries" if centre is None else f"centre ({centre[0]:.4g}, {centre[1]:.4g})"
         return lay_out(rows, self.samples, self.surface, sizes, label)
 
-    def solved(self, layout: Layout, trim: Trim) -> Candidate | None:
+    def solved(self, layout: Layout, trim: Trim, seams: tuple[int, ...] = ()) -> Candidate | None:
         trim = replace(trim, least_opening=self.least_opening)
-        found = solve_masked(layout.zigzag, layout.net.normals, layout.mask, layout.net.closed, trim)
+        found = solve_masked(layout.zigzag, layout.net.normals, layout.mask, layout.net.closed, trim, seams=seams,
+                             is_ring=layout.net.is_ring)
         if found is None:
             return None
         topology = found.grid.topology
@@ -149,45 +114,50 @@ class _Task:
                          mid_surface_deviation(self.surface, found.vertices, topology.quads),
                          float(crease_opening_angles(topology, found.vertices).min(initial=np.pi)),
                          float(np.minimum(angles := sector_angles(topology, found.vertices), np.pi - angles).min()),
-                         1 - topology.euler_characteristic - max(len(self.mesh.boundary_loops) - 1, 0))
+                         max(1 - topology.euler_characteristic - max(len(self.mesh.boundary_loops) - 1, 0), 0))
 
 
 def whole_surface(mesh: ReferenceMesh, surface: ChartedSurface, *, width: float | None = None,
                   amplitude: float | None = None, theta: float | None = None, centre: np.ndarray | None = None,
-                  overhang: bool = False, candidates: int = 20, progress: Progress | None = None) -> WholeSurface:
-    """An exact, regular structure over as much of a surface as can be had in one piece.
+                  overhang: bool = False, above: bool = False, inside: bool = False, candidates: int = 20,
+                  seams: int | None = None, progress: Progress | None = None) -> WholeSurface:
+    """An exact, regular structure over as much of a surface as can be had.
 
     Lengths are in model units, `theta` (preferred inclination) is in radians. Only layouts around `centre` (3,) are
     tried where it is given; it may lie anywhere, its chart coordinates count. Without `overhang` layouts keep |θ|
-    below 45° and creases open by 15° at least. `progress` hears the stage and how much of it is done. Raises
-    Infeasible where no layout has a solution.
+    below 45° and creases open by 15° at least. The first crease lies `above` the surface or below; with `inside` no row
+    reaches beyond its boundary. At most `seams` cut it apart; None leaves it in one piece unless seams cover notably
+    more. `progress` hears the stage and how much of it is done. Raises Infeasible where no layout has a solution.
     """
     report = progress or (lambda stage, fraction: None)
     width = width or sensible_width(mesh, surface)
     limit, opening = (OVERHANG_LIMIT, OPENING_RANGE[0]) if overhang else (UPRIGHT_LIMIT, FOLDABLE)
     task = _Task(mesh, surface, AreaSamples.of(mesh.vertices, mesh.triangles), opening)
-    sizes = Sizes(width, amplitude or AMPLITUDE * width, theta or 0.0, limit, 0.0)
+    sizes = Sizes(width, amplitude or AMPLITUDE * width, theta or 0.0, limit, 0.0, above=above, inside=inside)
+    if centre is not None and isinstance(surface, ParametricSurface) and surface.period is not None:
+        raise Infeasible("creases go up a tube or around it, not around a centre; leave out surface.centre")
     place = None if centre is None else surface.to_plane(np.asarray(centre, float)[None])[0, :2]
+    layouts: list[Layout] = []
     tried: list[Candidate] = []
-    for stage, jobs in (("scan", _first(task, sizes, place, candidates)), ("refine", _second(task, tried))):
-        for fraction, layout, trim in jobs:
+    for stage, jobs in stages(_first(task, sizes, place, candidates), layouts, tried, seams):
+        for fraction, layout, trim, columns in jobs:
             report(stage, fraction)
-            candidate = task.solved(layout, trim)
+            layouts.append(layout)
+            candidate = task.solved(layout, trim, columns)
             tried += [candidate] if candidate else []
             if candidate and candidate.is_done:
                 return _finished(task, candidate, tuple(tried))
     if not tried:
         raise Infeasible("no layout over this surface has a solution; a smaller width or a smoother surface may help")
-    return _finished(task, max(tried, key=lambda candidate: candidate.rank), tuple(tried))
+    return _finished(task, best_of(tried, seams), tuple(tried))
 
 
-_Jobs = Iterator[tuple[float, Layout, Trim]]
-
-
-def _first(task: _Task, sizes: Sizes, centre: np.ndarray | None, count: int) -> _Jobs:
+def _first(task: _Task, sizes: Sizes, centre: np.ndarray | None, count: int) -> Jobs:
     """Layouts around one centre or many; for an annulus, rows between its boundaries, of several widths."""
-    jobs: list[tuple[np.ndarray | None, Sizes]] = []
-    if centre is None and task.is_annulus:
+    jobs: list[tuple[Straight | np.ndarray | None, Sizes]] = []
+    if centre is None and isinstance(task.surface, ParametricSurface):
+        jobs += [*starts_on_sheet_or_tube(task.mesh, task.surface, sizes, count)]
+    elif centre is None and task.is_annulus:
         jobs += [(None, replace(sizes, width=sizes.width * size, amplitude=sizes.amplitude * size * height,
                                curvature=weight, limit=limit))
                 for limit, weight in ((OVERHANG_LIMIT, 0.0), (OVERHANG_LIMIT, 1.0), (sizes.limit, 0.0))
@@ -197,15 +167,20 @@ def _first(task: _Task, sizes: Sizes, centre: np.ndarray | None, count: int) -> 
     else:
         jobs += [(centre, replace(sizes, curvature=weight)) for weight in (0.0, 1.0)]
     for k, (place, size) in enumerate(jobs):
-        yield k / len(jobs), task.layout(place, size), SCAN
+        yield k / len(jobs), task.layout(place, size), SCAN, ()
 
 
-def _second(task: _Task, tried: list[Candidate]) -> _Jobs:
-    """The best layouts again, held nearer to the reference or left freer."""
-    finalists = sorted(tried, key=lambda candidate: candidate.rank, reverse=True)[:FINALISTS]
-    jobs = [(candidate, hold) for candidate in finalists for hold in HOLDS]
-    for k, (candidate, hold) in enumerate(jobs):
-        yield k / len(jobs), candidate.layout, Trim(hold=hold)
+def starts_on_sheet_or_tube(mesh: ReferenceMesh, surface: ParametricSurface, sizes: Sizes,
+                            count: int) -> Iterator[tuple[Straight | np.ndarray, Sizes]]:
+    """Straight rows, then circles for a sheet; for a tube rows up and around, of several sizes."""
+    straight = directions(surface)
+    if surface.period is None:
+        yield from ((start, sizes) for start in islice(chain(straight, centres(mesh, surface, count)), count))
+        return
+    starts = [*straight, Straight(0.0)]
+    for size, height, limit in ((1.0, 1.0, sizes.limit), (1.0, 1.5, OVERHANG_LIMIT), (0.8, 1.5, OVERHANG_LIMIT)):
+        for start in starts:
+            yield start, replace(sizes, width=sizes.width * size, amplitude=sizes.amplitude * size * height, limit=limit)
 
 
 def _finished(task: _Task, best: Candidate, tried: tuple[Candidate, ...]) -> WholeSurface:
@@ -227,6 +202,11 @@ def _notes(best: Candidate, inclination: np.ndarray, overhanging: float) -> Iter
            f"{np.degrees(inclination.max()):.0f}°, {100 * overhanging:.0f} % of the faces overhang")
     if best.holes > 0:
         yield f"the structure has {best.holes} hole{'s' if best.holes > 1 else ''} where no exact pleats were found"
+    if best.seams:
+        defects = np.degrees(seam_defects(best.solved.grid.topology, best.solved.vertices))
+        yield (f"{len(best.seams)} seam{'s' if len(best.seams) > 1 else ''} cut the sheet apart, along the columns "
+               f"{', '.join(map(str, best.seams))} of {best.layout.mask.shape[1]}; angles there miss 360° by "
+               f"{defects.mean():.0f}° on average and {defects.max():.0f}° at most")
     if best.coverage < FULL:
         yield f"{100 * (1 - best.coverage):.1f} % of the surface are not covered"
     if not best.solved.is_sound:

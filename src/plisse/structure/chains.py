@@ -6,14 +6,14 @@ import numpy as np
 
 from plisse.structure.topology import Polyline, Topology
 
-__all__ = ["boundary_loops", "successive_triples"]
+__all__ = ["boundary_loops", "directed_loops", "successive_triples"]
 
 
 def boundary_loops(topology: Topology) -> tuple[np.ndarray, ...]:
     """Closed loops of boundary vertices, in the direction in which the faces run along them."""
     edges = topology.edges
     ends = edges.vertices[edges.is_boundary]
-    return tuple(_walk_directed(ends))
+    return tuple(directed_loops(ends))
 
 
 def successive_triples(lines: Iterable[Polyline]) -> np.ndarray:
@@ -25,7 +25,7 @@ def successive_triples(lines: Iterable[Polyline]) -> np.ndarray:
     return np.concatenate(parts)
 
 
-def _walk_directed(ends: np.ndarray) -> list[np.ndarray]:
+def directed_loops(ends: np.ndarray) -> list[np.ndarray]:
     """Loops of directed edges; where several loops touch in a vertex they are separated there."""
     ahead: dict[int, list[int]] = {}
     for a, b in ends.tolist():

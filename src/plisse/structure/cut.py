@@ -8,7 +8,7 @@ from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from plisse.structure.topology import Polyline, Topology
 
-__all__ = ["Cut", "cut_along", "cut_open", "uncut"]
+__all__ = ["Cut", "cut_along", "cut_apart", "cut_open", "uncut"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,16 +35,25 @@ def cut_along(topology: Topology, *lines: Polyline) -> Cut:
     return _severed(topology, np.isin(key, np.concatenate([_line_keys(line, topology.vertex_count) for line in lines])))
 
 
-def cut_open(topology: Topology) -> Cut:
-    """Any connected topology cut open into a disk, along a short graph of edges that joins its holes and handles.
+def cut_apart(topology: Topology) -> Cut:
+    """The topology parted along its seams, and every part cut open into a disk."""
+    edges = _edge_keys(topology.edges.vertices, topology.vertex_count)
+    parted = _severed(topology, np.isin(edges, _edge_keys(topology.seams, topology.vertex_count)))
+    opened = cut_open(parted.topology)
+    return Cut(opened.topology, parted.source[opened.source])
 
-    Faces are joined along a breadth-first tree; of the edges that the tree does not cross those remain severed that
+
+def cut_open(topology: Topology) -> Cut:
+    """Any topology cut open into disks, one per piece, along a short graph of edges that joins its holes and handles.
+
+    Faces are joined along breadth-first trees; of the edges that the trees do not cross those remain severed that
     lead somewhere, because loose ends are closed again.
     """
     edges = topology.edges
     inner = np.flatnonzero(~edges.is_boundary)
     link = coo_array((np.ones(len(inner)), edges.faces[inner].T), shape=(topology.face_count,) * 2).tocsr()
-    _, parent = breadth_first_order(link, 0, directed=False)
+    roots = np.unique(topology.piece_of_faces, return_index=True)[1]
+    parent = np.max([breadth_first_order(link, root, directed=False)[1] for root in roots], axis=0)
     first, second = edges.faces[:, 0], edges.faces[:, 1]
     joined = ~edges.is_boundary & ((parent[first] == second) | (parent[second] == first))
     severed = ~joined

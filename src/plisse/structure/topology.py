@@ -22,19 +22,23 @@ class Topology:
     """Labelled faces over `vertex_count` vertices, consistently oriented.
 
     `ordering` is an optional key per vertex whose neighbours have nearby values: solvers sort by it to get a
-    narrow band. Raises InvalidStructure for indices out of range or edges with more than two faces.
+    narrow band. `seams` are edges (S, 2) along which the sheet is in parts that meet in space only: angles around
+    their vertices sum to anything. Raises InvalidStructure for indices out of range or edges with more than two faces.
     """
 
     vertex_count: int
     quads: np.ndarray
     hubs: tuple[np.ndarray, ...] = ()
     ordering: np.ndarray | None = field(default=None, repr=False)
+    seams: np.ndarray = field(default_factory=lambda: np.empty((0, 2), np.int64), repr=False)
 
     def __post_init__(self):
         quads = np.ascontiguousarray(np.asarray(self.quads, dtype=np.int64).reshape(-1, 4))
         hubs = tuple(np.asarray(hub, dtype=np.int64) for hub in self.hubs)
         object.__setattr__(self, "quads", quads)
         object.__setattr__(self, "hubs", hubs)
+        seams = np.asarray(self.seams, dtype=np.int64).reshape(-1, 2)
+        object.__setattr__(self, "seams", np.unique(np.sort(seams, axis=1), axis=0))
         used = np.concatenate([quads.ravel(), *hubs])
         if used.size == 0:
             raise InvalidStructure("a structure needs at least one face, and this one has none")
@@ -96,8 +100,15 @@ class Topology:
         return mask
 
     @cached_property
+    def is_inner(self) -> np.ndarray:
+        """Mask (V,) of vertices around which the sheet is whole: neither on the boundary nor on a seam."""
+        mask = ~self.is_boundary
+        mask[self.seams] = False
+        return mask
+
+    @cached_property
     def stars(self) -> dict[int, np.ndarray]:
-        """Interior vertices by valence k: rows (N, 1+k) of centre and ring, the ring starting on a crease edge."""
+        """Inner vertices by valence k: rows (N, 1+k) of centre and ring, the ring starting on a crease edge."""
         return _stars(self)
 
     @cached_property
@@ -116,12 +127,17 @@ class Topology:
         return joined(self.edges.vertices[~self.edges.is_crease])
 
     @cached_property
-    def components(self) -> int:
-        """Number of pieces connected over edges."""
+    def piece_of_faces(self) -> np.ndarray:
+        """Number (F,) of the piece that every face belongs to; pieces hang together over edges."""
         edges = self.edges
         inner = ~edges.is_boundary
         links = coo_array((np.ones(inner.sum()), edges.faces[inner].T), shape=(self.face_count,) * 2)
-        return int(connected_components(links, directed=False)[0])
+        return connected_components(links, directed=False)[1].astype(np.int64)
+
+    @property
+    def components(self) -> int:
+        """Number of pieces connected over edges."""
+        return int(self.piece_of_faces.max()) + 1
 
     @cached_property
     def euler_characteristic(self) -> int:
@@ -190,16 +206,15 @@ def _edges(topology: Topology) -> Edges:
 
 
 def _stars(topology: Topology) -> dict[int, np.ndarray]:
-    interior = ~topology.is_boundary
     valence = np.bincount(topology.corners.vertex, minlength=topology.vertex_count)
-    return {int(k): _ring_corners(topology, int(k))[0] for k in np.unique(valence[interior])}
+    return {int(k): _ring_corners(topology, int(k))[0] for k in np.unique(valence[topology.is_inner])}
 
 
 def _ring_corners(topology: Topology, valence: int) -> tuple[np.ndarray, np.ndarray]:
     """Stars (N, 1+k) and their corners (N, k): walk around all vertices of one valence at the same time."""
     corners = topology.corners
     count = np.bincount(corners.vertex, minlength=topology.vertex_count)
-    centres = np.flatnonzero(~topology.is_boundary & (count == valence))
+    centres = np.flatnonzero(topology.is_inner & (count == valence))
     by_vertex = np.argsort(corners.vertex, kind="stable")
     offset = np.concatenate([[0], np.cumsum(count)])
     around = by_vertex[offset[centres][:, None] + np.arange(valence)]

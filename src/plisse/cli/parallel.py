@@ -1,0 +1,226 @@
+"""`plisse parallel`: structures parallel to a structure, and folds replaced by three."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+
+if TYPE_CHECKING:
+    from plisse.io.model import Model
+    from plisse.recipe import Parallel
+    from plisse.transform.variation import Member
+
+__all__ = ["parallel", "parse_factors", "parse_move"]
+
+
+def parallel(
+    structure: Path,
+    /,
+    *,
+    lengths: str | None = None,
+    widths: str | None = None,
+    growth: float | None = None,
+    move: Annotated[tuple[str, ...], Parameter(negative=())] = (),
+    handles: Path | None = None,
+    near: Path | None = None,
+    least_scale: float = 0.05,
+    refine_fold: Annotated[tuple[str, ...], Parameter(negative=())] = (),
+    fraction: float = 1 / 3,
+    at: float | None = None,
+    rounds: int = 1,
+    open_: Annotated[bool, Parameter(name="--open", negative=())] = False,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    json: Annotated[bool, Parameter(negative=())] = False,
+    quiet: Annotated[bool, Parameter(negative=())] = False,
+) -> int:
+    """Change a structure so that all edges keep their directions: it stays exact, and principal if it is.
+
+    A picture of the family side by side is written beside.
+
+    Parameters
+    ----------
+    structure
+        A .fold or .obj file with a folded structure.
+    lengths
+        Factors for the edges along the first crease: one, one per edge with commas, or a table 0:1,0.5:2,1:1 of
+        positions and factors.
+    widths
+        Factors for the edges along the first zigzag of rulings, given in the same ways.
+    growth
+        Make a spiral that grows by this factor from one end of the creases to the other.
+    move
+        crease,point:dx,dy,dz moves a point (counted from 1), and the nearest parallel structure follows; may be repeated.
+    handles
+        A file of rows crease, point, x, y, z: where points shall go.
+    near
+        A .fold or .obj file with the same faces: the nearest parallel structure to its vertices.
+    least_scale
+        What is nearest has edges of at least this many times their length.
+    refine_fold
+        Number of a crease (from 1) to be replaced by three, or all; may be repeated.
+    fraction
+        Where new creases lie: this share of the strips' rulings away, where they are narrowest or at --at.
+    at
+        Percent of the crease's length where --fraction is measured.
+    rounds
+        How many times folds are replaced.
+    open_
+        Cut a closed structure open first.
+    output
+        A .fold or .obj file; the structure's name with -parallel.fold if left out.
+    json
+        Print the report as JSON instead of a summary.
+    quiet
+        Print nothing.
+    """
+    from plisse.errors import PlisseError
+    from plisse.io.structures import read_model
+
+    target = Path(f"{structure.stem}-parallel.fold") if output is None else output
+    if target.suffix.lower() not in (".fold", ".obj"):
+        raise PlisseError(f"{target.name} is neither a .fold nor an .obj file; give one of these")
+    if target.exists() and structure.exists() and target.samefile(structure):
+        raise PlisseError(f"{target} is the structure itself; choose another file with -o")
+    moves = [parse_move(text) for text in move] + ([] if handles is None else _read_handles(handles))
+    chosen = refine_fold if "all" not in refine_fold else "all"
+    recipe = _recipe({"lengths": parse_factors(lengths, "--lengths"), "widths": parse_factors(widths, "--widths"),
+                      "growth": growth, "moves": moves or None, "least_scale": least_scale, "fraction": fraction, "at": at,
+                      "rounds": rounds, "refine": _numbers(chosen) if chosen else None})
+    model = read_model(structure)
+    family = _family(model, recipe, near, open_)
+    return _finish(model, family, target, json, quiet)
+
+
+def parse_factors(text: str | None, option: str) -> float | list | None:
+    """One factor, a list, or a table of [position, factor] rows; raises InvalidDesign for anything else."""
+    from plisse.errors import InvalidDesign
+
+    if text is None:
+        return None
+    try:
+        if ":" in text:
+            return [[float(part) for part in row.split(":", 1)] for row in text.split(",")]
+        values = [float(part) for part in text.split(",")]
+    except ValueError:
+        raise InvalidDesign(f"{option} {text} is neither a factor, nor factors with commas, nor a table like 0:1,0.5:2,1:1") \
+            from None
+    return values[0] if len(values) == 1 else values
+
+
+def parse_move(text: str) -> dict:
+    """Crease, point and displacement of crease,point:dx,dy,dz; raises InvalidDesign for anything else."""
+    from plisse.errors import InvalidDesign
+
+    place, colon, by = text.partition(":")
+    try:
+        crease, point = (int(part) for part in place.split(","))
+        x, y, z = (float(part) for part in by.split(","))
+    except ValueError:
+        colon = ""
+    if not colon:
+        raise InvalidDesign(f"--move {text} is not of the form crease,point:dx,dy,dz, for example 5,1:20,0,15")
+    return {"crease": crease, "point": point, "by": [x, y, z]}
+
+
+def _read_handles(path: Path) -> list[dict]:
+    from plisse.errors import InvalidDesign
+
+    try:
+        rows = [line.replace(";", ",").split(",") for line in path.read_text(encoding="utf-8-sig").splitlines() if line.strip()]
+    except (OSError, UnicodeDecodeError):
+        raise InvalidDesign(f"{path} cannot be read as text; give a file with rows crease, point, x, y, z") from None
+    out = []
+    for number, row in enumerate(rows, 1):
+        try:
+            crease, point, x, y, z = row
+            out.append({"crease": int(crease), "point": int(point), "to": [float(x), float(y), float(z)]})
+        except ValueError:
+            if number > 1:  # the first may be a header
+                raise InvalidDesign(f"row {number} of {path.name} is not crease, point, x, y, z") from None
+    if not out:
+        raise InvalidDesign(f"{path.name} has no rows crease, point, x, y, z")
+    return out
+
+
+def _numbers(texts: tuple[str, ...] | str) -> list[int] | str:
+    from plisse.errors import InvalidDesign
+
+    if isinstance(texts, str):
+        return texts
+    try:
+        return [int(text) for text in texts]
+    except ValueError:
+        raise InvalidDesign(f"--refine-fold {texts[-1]} is neither the number of a crease nor all") from None
+
+
+def _recipe(data: dict) -> Parallel:
+    import msgspec
+
+    from plisse.errors import InvalidDesign
+    from plisse.io.mistakes import refuse_non_finite, sentence
+    from plisse.recipe import Design
+
+    given = {name: value for name, value in data.items() if value is not None}
+    refuse_non_finite({"parallel": given})
+    try:
+        recipe = msgspec.convert({"parallel": given}, Design).parallel
+    except msgspec.ValidationError as error:
+        raise InvalidDesign(sentence(str(error), {"parallel": given})) from None
+    assert recipe is not None
+    return recipe
+
+
+def _family(model: Model, recipe: Parallel, near: Path | None, open_: bool) -> tuple[Member, ...]:
+    """The structure and what becomes of it."""
+    from msgspec.structs import replace
+
+    from plisse.errors import InvalidDesign
+    from plisse.io.structures import read_structure
+    from plisse.solve.flatten import flatten
+    from plisse.transform.parallel import cut_apart, parallel
+    from plisse.transform.variation import Member, variations
+
+    base = flatten(cut_apart(model.structure)) if open_ else model.structure
+    if near is None:
+        return variations(base, recipe)
+    if not all(value is None for value in (recipe.lengths, recipe.widths, recipe.growth, recipe.moves)):
+        raise InvalidDesign("--near is one way to a parallel structure, and another is given too; remove one")
+    other = read_structure(near)
+    if len(other.vertices) != len(base.vertices):
+        raise InvalidDesign(f"{near.name} has {len(other.vertices)} vertices, but the structure has {len(base.vertices)}; give "
+                            "a mesh with the same faces")
+    found = parallel(base, positions=other.vertices, least_scale=recipe.least_scale)
+    members = (Member("as given", base), Member(f"nearest to {near.stem}", found))
+    return members if recipe.refine is None else members + variations(found, replace(recipe))[1:]
+
+
+def _finish(model: Model, family: tuple[Member, ...], target: Path, json: bool, quiet: bool) -> int:
+    """Write the last of the family and the picture of all, and say how good it is."""
+    from msgspec.structs import replace
+
+    from plisse.assess import assess
+    from plisse.cli.console import show_check
+    from plisse.draw.family import write_family
+    from plisse.io.atomic import require_writable, written_together
+    from plisse.io.fold import write_fold
+    from plisse.io.obj import write_obj
+    from plisse.io.report import report_json
+    from plisse.varied import scales_between
+
+    structure, picture = family[-1].structure, target.with_suffix(".png").name
+    require_writable(target.parent, [target.name, picture])
+    principal = assess(family[0].structure).principal
+    report = replace(assess(structure, principal=principal, units=model.units),
+                     edge_scales=scales_between(family[0].structure, family[1].structure))
+    title = f"{model.title}, {family[-1].caption}"
+    with written_together(target.parent) as stage:
+        (write_fold if target.suffix.lower() == ".fold" else write_obj)(structure, stage / target.name, title=title,
+                                                                        units=model.units)
+        write_family(family, stage / picture, title=model.title)
+    if json:
+        print(report_json(report), end="")
+    elif not quiet:
+        show_check(report, title=str(target))
+    return 0 if report.status == "exact" else 3

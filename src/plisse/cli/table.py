@@ -1,0 +1,44 @@
+"""`plisse table`: Fig. 21 of the paper, computed anew."""
+
+from typing import Annotated
+
+from cyclopts import Parameter
+
+__all__ = ["table"]
+
+
+def table(*names: str, json: Annotated[bool, Parameter(negative=())] = False,
+          markdown: Annotated[bool, Parameter(negative=())] = False,
+          quiet: Annotated[bool, Parameter(negative=())] = False) -> int:
+    """Solve the examples of the paper's Fig. 21 and print their numbers beside the paper's.
+
+    Parameters
+    ----------
+    names
+        Only these examples, for example fig01d fig19; all of them when none is given.
+    json
+        Print a list of objects.
+    markdown
+        Print a Markdown table.
+    quiet
+        Show no progress.
+    """
+    import msgspec
+
+    from plisse.cli.console import progress, show_table
+    from plisse.errors import InvalidDesign
+    from plisse.table import PRINTED, as_markdown
+    from plisse.table import table as rows_of
+
+    unknown = [name for name in names if name not in PRINTED]
+    if unknown:
+        raise InvalidDesign(f"{unknown[0]} is no example of Fig. 21; those are {', '.join(PRINTED)}")
+    with progress(quiet or json) as report:
+        rows = rows_of(names or None, progress=report)
+    if json:
+        print(msgspec.json.format(msgspec.json.encode(rows)).decode())
+    elif markdown:
+        print(as_markdown(rows), end="")
+    else:
+        show_table(rows)
+    return 0 if all(row.status == "exact" for row in rows) else 3

@@ -1,0 +1,92 @@
+"""Drawings on the paper of a printer: parts of a large sheet, page by page, with marks to lay them together."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from plisse.draw.captions import caption
+from plisse.draw.drawing import Drawing, Layer
+from plisse.draw.shapes import Line, Shape, Text
+from plisse.fabricate.labels import CHARACTER
+from plisse.fabricate.tiling import BORDER, Tile, Tiling, tiling
+
+__all__ = ["fits_page", "printed_pages"]
+
+CROSS, RING = 4.0, 1.5
+
+
+def printed_pages(drawings: list[Drawing], paper: tuple[float, float]) -> list[Drawing]:
+    """Pages of `paper` (width, height) mm at 1:1: drawings that are not larger stay whole, others are tiled.
+
+    Tiles without lines are left out. Texts stand on every page that shows them whole.
+    """
+    pages = []
+    for number, drawing in enumerate(drawings, 1):
+        if fits_page(drawing.size, paper):
+            pages.append(drawing)
+            continue
+        layout = tiling(drawing.size, paper)
+        for tile in layout.tiles:
+            layers = _cropped(drawing, layout, tile)
+            if any(layer.lines for layer in layers):
+                pages.append(_page(drawing, layout, tile, layers, number))
+    return pages
+
+
+def fits_page(size: tuple[float, float], paper: tuple[float, float]) -> bool:
+    """Whether a sheet (width, height) is no larger than the paper, upright or lying."""
+    return any(size[0] <= page[0] + 1e-6 and size[1] <= page[1] + 1e-6 for page in (paper, paper[::-1]))
+
+
+def _page(drawing: Drawing, layout: Tiling, tile: Tile, layers: list[Layer], number: int) -> Drawing:
+    """One page with its part of the drawing, registration marks, scale bar and its place among the pages."""
+    shift = np.array(layout.origin) - tile.corner
+    lines: list[Shape] = []
+    for mark in layout.marks:
+        if _inside(mark[None], tile.corner, layout.window).all():
+            lines += _registration(mark + shift)
+    place = f"sheet {number}, row {tile.row} of {layout.rows}, column {tile.column} of {layout.columns}"
+    short = f"sheet {number}, row {tile.row}, column {tile.column}"
+    said = caption((BORDER, BORDER), layout.window[0], [f"{place}, crosses over crosses, print at 100 %", place, short])
+    lines += said["text"][0]
+    words = next((layer for layer in layers if layer.name == "text"), Layer("text"))
+    others = [layer for layer in layers if layer.name != "text"]
+    text = replace(words, lines=(*words.lines, *lines), texts=(*words.texts, *said["text"][1]))
+    return Drawing(f"{drawing.title} row {tile.row} column {tile.column}", layout.page, (text, *others))
+
+
+def _cropped(drawing: Drawing, layout: Tiling, tile: Tile) -> list[Layer]:
+    """The layers inside the window of a tile, where they lie on its page."""
+    from shapely import LineString, box, get_coordinates, get_parts, intersection, prepare
+
+    low, shift = np.array(tile.corner), np.array(layout.origin) - tile.corner
+    window = box(*low, *(low + layout.window))
+    prepare(window)
+    out = []
+    for layer in drawing.layers:
+        paths = [LineString(shape.path) for shape in layer.lines]
+        parts = get_parts(intersection(np.array(paths, dtype=object), window)) if paths else []
+        parts = [part for piece in parts for part in get_parts(piece) if part.geom_type == "LineString" and part.length > 0]
+        texts = tuple(replace(text, at=tuple((np.array(text.at) + shift).tolist())) for text in layer.texts
+                      if _inside(_box(text), tile.corner, layout.window).all())
+        out.append(replace(layer, lines=tuple(Line(get_coordinates(part) + shift) for part in parts), texts=texts))
+    return out
+
+
+def _box(text: Text) -> np.ndarray:
+    """Corners (4, 2) of the room that a text takes."""
+    along, up = np.array([np.cos(text.angle), np.sin(text.angle)]), np.array([-np.sin(text.angle), np.cos(text.angle)])
+    width = CHARACTER * text.height * len(text.words)
+    start = np.array(text.at) - along * width * {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor]
+    return np.array([start, start + width * along, start + width * along + text.height * up, start + text.height * up])
+
+
+def _inside(points: np.ndarray, corner: tuple[float, float], window: tuple[float, float]) -> np.ndarray:
+    return ((points >= np.array(corner) - 1e-9) & (points <= np.array(corner) + window + 1e-9)).all(axis=1)
+
+
+def _registration(at: np.ndarray) -> list[Shape]:
+    """A cross in a circle."""
+    angle = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    return [Line(np.array([at - [CROSS, 0], at + [CROSS, 0]])), Line(np.array([at - [0, CROSS], at + [0, CROSS]])),
+            Line(at + RING * np.stack([np.cos(angle), np.sin(angle)], axis=1), closed=True)]

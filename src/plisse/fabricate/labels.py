@@ -1,0 +1,127 @@
+"""Numbers on pieces: at every cut edge on both sides, and one for the piece; they touch neither lines nor each other."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from plisse.fabricate.joints import Joint
+from plisse.fabricate.paper import Paper
+from plisse.fabricate.pieces import Piece, Placement
+
+__all__ = ["CHARACTER", "Label", "labels_on"]
+
+CHARACTER = 0.95
+EDGE_HEIGHTS = (2.6, 2.2, 1.8, 1.5, 1.2, 1.0, 0.8, 0.65, 0.5)
+PIECE_HEIGHTS = (8.0, 6.5, 5.0, 4.0, 3.2, 2.6, 2.1, 1.7, 1.4, 1.1, 0.9, 0.7, 0.5)
+CLEAR = 0.35
+CANDIDATES = 600
+STEEPEST = np.radians(105)
+
+
+@dataclass(frozen=True)
+class Label:
+    """Words with capitals `height` mm high about their `centre`, turned by `angle` radians so that they stand upright.
+
+    `kind` is edge or piece.
+    """
+
+    words: str
+    centre: tuple[float, float]
+    height: float
+    angle: float
+    kind: str
+
+    @property
+    def corners(self) -> np.ndarray:
+        """Corners (4, 2) of the box that the words take, with 0.95 heights per character."""
+        along = np.array([np.cos(self.angle), np.sin(self.angle)]) * self.height * CHARACTER * len(self.words) / 2
+        up = np.array([-np.sin(self.angle), np.cos(self.angle)]) * self.height / 2
+        return np.array(self.centre) + np.array([-along - up, along - up, along + up, -along + up])
+
+
+def labels_on(paper: Paper, piece: Piece, placement: Placement, joints: tuple[Joint, ...], lines: list[np.ndarray]) -> list[Label]:
+    """Labels of a piece where it lies on its sheet; `lines` (N, 2) are the folds and ticks on it, there too."""
+    import shapely
+
+    points = placement.apply(paper.points)
+    outline = shapely.transform(paper.polygon(piece.faces), placement.apply)
+    obstacles = shapely.union_all([outline.boundary, *(shapely.LineString(line) for line in lines)])
+    shapely.prepare(obstacles)
+    shapely.prepare(outline)
+    board = _Board(outline, obstacles)
+    for joint in joints:
+        for side in (0, 1):
+            if joint.pieces[side] == piece.number - 1:
+                for words, path in zip(joint.labels, joint.edges(side), strict=True):
+                    board.first(_beside(words, points[path], side, joint.on_crease))
+    _name(board, paper, piece, points)
+    return board.labels
+
+
+class _Board:
+    """Where labels may stand: inside the outline, clear of lines and of each other."""
+
+    def __init__(self, outline, obstacles):
+        self.labels: list[Label] = []
+        self._outline, self._obstacles, self._boxes = outline, obstacles, []
+
+    def first(self, wishes: list[Label]) -> bool:
+        """Put down the first wish that is clear; or else the last, which is the smallest, and say so."""
+        import shapely
+
+        boxes = shapely.polygons([wish.corners for wish in wishes])
+        grown = shapely.buffer(boxes, [min(CLEAR, 0.25 * wish.height) for wish in wishes], join_style="mitre")
+        clear = shapely.contains_properly(self._outline, grown) & ~shapely.intersects(self._obstacles, grown)
+        if self._boxes:
+            clear &= ~shapely.intersects(grown[:, None], np.array(self._boxes)).any(axis=1)
+        chosen = int(np.argmax(clear)) if clear.any() else len(wishes) - 1
+        self.labels.append(wishes[chosen])
+        self._boxes.append(grown[chosen])
+        return bool(clear.any())
+
+    def room(self, centres: np.ndarray) -> np.ndarray:
+        """Distance (C,) of places from the nearest line."""
+        import shapely
+
+        return shapely.distance(self._obstacles, shapely.points(centres))
+
+
+def _beside(words: str, edge: np.ndarray, side: int, along: bool) -> list[Label]:
+    """Wishes for a label beside an edge (N, 2), large ones first: running into the strip, or along a crease."""
+    chord = edge[-1] - edge[0]
+    direction = chord / np.hypot(*chord)
+    inwards = np.array([-direction[1], direction[0]]) * (1 if side == 0 else -1)
+    middle = edge[len(edge) // 2] if along and len(edge) > 2 else edge.mean(axis=0) if len(edge) == 2 else edge[len(edge) // 2]
+    angle = _upright(direction if along else inwards)
+    wishes = []
+    for height in EDGE_HEIGHTS:
+        depth = height if along else CHARACTER * height * len(words)
+        for away in (0.7, 1.4, 2.4):
+            wishes.append(Label(words, tuple((middle + inwards * (away + depth / 2)).tolist()), height, angle, "edge"))
+    return wishes
+
+
+def _name(board: _Board, paper: Paper, piece: Piece, points: np.ndarray) -> None:
+    """The number of a piece, as large as the widest place between its lines allows, along the strip."""
+    quads = paper.topology.quads[piece.faces[: len(paper.topology.quads)]]
+    if len(quads) == 0:
+        quads = np.array([paper.topology.hubs[0][:4]])
+    quads = quads[:: max(1, len(quads) // CANDIDATES)]
+    a, b, c, d = (points[quads[:, k]] for k in range(4))
+    centres, along = (a + b + c + d) / 4, (b + c - a - d) / 2
+    room = board.room(centres)
+    wishes = []
+    for words in (f"PIECE {piece.number}", str(piece.number)):
+        for height in PIECE_HEIGHTS:
+            for k in np.argsort(-room, kind="stable")[:40].tolist():
+                if room[k] >= 0.5 * height:
+                    wishes.append(Label(words, tuple(centres[k].tolist()), height, _upright(along[k]), "piece"))
+    smallest = int(np.argmax(room))
+    wishes.append(Label(str(piece.number), tuple(centres[smallest].tolist()), 0.5, _upright(along[smallest]), "piece"))
+    board.first(wishes)
+
+
+def _upright(direction: np.ndarray) -> float:
+    """Angle in (−75°, 105°] of a line: words do not stand on their heads, and nearly vertical ones all read upwards."""
+    angle = float(np.arctan2(direction[1], direction[0]))
+    return STEEPEST - float(np.mod(STEEPEST - angle, np.pi))

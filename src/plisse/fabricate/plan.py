@@ -1,0 +1,118 @@
+"""From a structure to sheets: split, joined, nested."""
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+
+from plisse.errors import Infeasible, PlisseError
+from plisse.fabricate.dense_nesting import tightened
+from plisse.fabricate.joints import Joint, joints_between
+from plisse.fabricate.nesting import Bed, nest
+from plisse.fabricate.paper import Paper, paper_of
+from plisse.fabricate.pieces import Piece, Placement, pieces_from
+from plisse.fabricate.splitting import NARROWEST, Room, split
+from plisse.fabricate.tabs import tabs_for
+from plisse.recipe import MILLIMETRES
+from plisse.structure.pleated import PleatedStructure
+
+__all__ = ["JointKind", "Nesting", "Sheets", "sheets"]
+
+JointKind = Literal["tabs", "edges"]
+Nesting = Literal["quick", "dense"]
+FOOTER = 9.0
+
+
+@dataclass(frozen=True, eq=False)
+class Sheets:
+    """A development as pieces on sheets of one material, lengths in millimetres.
+
+    `placements` has one entry per piece; `paper` is the whole development, in whose place the pieces are stored.
+    The lowest 9 mm inside the margins of every sheet stay free for its caption and scale bar.
+    """
+
+    paper: Paper
+    pieces: tuple[Piece, ...]
+    joints: tuple[Joint, ...]
+    placements: tuple[Placement, ...]
+    material: tuple[float, float]
+    margin: float
+    kerf: float
+    joint: JointKind
+
+    @property
+    def count(self) -> int:
+        """Number of sheets."""
+        return 1 + max(placement.sheet for placement in self.placements)
+
+    @property
+    def use(self) -> float:
+        """Area of the pieces over the area of the sheets."""
+        return float(sum(piece.area for piece in self.pieces) / (self.count * self.material[0] * self.material[1]))
+
+    @property
+    def edge_count(self) -> int:
+        """How many numbered edges there are, each on two sides."""
+        return sum(len(joint.labels) for joint in self.joints)
+
+    @property
+    def notes(self) -> list[str]:
+        """What a maker should know: edges without a flap, edges that close the ring."""
+        out = []
+        bare = self.edge_count - sum(len(piece.tabs) for piece in self.pieces)
+        if self.joint == "tabs" and bare:
+            out.append(f"edges without a flap, because there is no room for one: {bare} of {self.edge_count}; glue a strip behind")
+        closing = [joint.name for joint in self.joints if joint.closes]
+        if closing:
+            which = f"joint {closing[0]} closes" if len(closing) == 1 else f"joints {', '.join(closing)} close"
+            out.append(f"{which} the structure: join last, when everything is folded")
+        return out
+
+    def on_sheet(self, number: int) -> list[tuple[Piece, Placement]]:
+        """Pieces on one sheet, counted from 0, with their placements."""
+        return [pair for pair in zip(self.pieces, self.placements, strict=True) if pair[1].sheet == number]
+
+
+def sheets(structure: PleatedStructure, *, material: tuple[float, float] = (600.0, 300.0), units: str = "mm", scale: float = 1.0,
+           kerf: float = 0.0, joint: JointKind = "tabs", tab: float = 6.0, margin: float = 5.0, spacing: float = 2.0,
+           nesting: Nesting = "quick") -> Sheets:
+    """The development as pieces that overlap nowhere, nested on sheets of `material` (width, height) mm.
+
+    `scale` is in paper per model. Outlines are grown by half the `kerf`, pieces are `spacing` apart and `margin` from the edge of
+    the sheet; `tab` is the depth of glue flaps. All in mm. Raises PlisseError for numbers without sense, Infeasible where a face
+    does not fit the material or the kerf is wider than a piece, MissingExtra for dense nesting without spyrrow.
+    """
+    _require_sense(material, units, scale, kerf, joint, tab, margin, spacing, nesting)
+    paper = paper_of(structure, MILLIMETRES[units] * scale)
+    bed = Bed((margin, margin + FOOTER), material[0] - 2 * margin, material[1] - 2 * margin - FOOTER, spacing)
+    if min(bed.width, bed.height) <= 0:
+        raise Infeasible(f"material of {material[0]:g} × {material[1]:g} mm is smaller than its margins of {margin:g} mm and a caption "
+                         f"of {FOOTER:g} mm; take larger material or a smaller margin")
+    flap = tab if joint == "tabs" else 0.0
+    masks = split(paper, Room(bed.width - kerf, bed.height - kerf, flap, max(kerf, NARROWEST)))
+    piece = np.empty(paper.topology.face_count, int)
+    for k, mask in enumerate(masks):
+        piece[mask] = k
+    joints = joints_between(paper, piece)
+    tabs = tabs_for(paper, [paper.polygon(mask) for mask in masks], joints, flap) if flap else ()
+    pieces = pieces_from(paper, masks, tabs, kerf)
+    outlines = [piece.outline for piece in pieces]
+    placements = nest(outlines, bed)
+    if nesting == "dense":
+        placements = tightened(outlines, placements, bed)
+    return Sheets(paper, pieces, joints, tuple(placements), material, margin, kerf, joint)
+
+
+def _require_sense(material: tuple[float, float], units: str, scale: float, kerf: float, joint: str, tab: float, margin: float,
+                   spacing: float, nesting: str) -> None:
+    positive = {"material width": material[0], "material height": material[1], "scale": scale, "tab": tab}
+    for name, value in positive.items():
+        if not 0 < value < np.inf:
+            raise PlisseError(f"{name} is {value:g}; give a number above 0")
+    for name, value in {"kerf": kerf, "margin": margin, "spacing": spacing}.items():
+        if not 0 <= value < np.inf:
+            raise PlisseError(f"{name} is {value:g}; give a number from 0")
+    words = {"units": (units, tuple(MILLIMETRES)), "joint": (joint, get_args(JointKind)), "nesting": (nesting, get_args(Nesting))}
+    for name, (word, known) in words.items():
+        if word not in known:
+            raise PlisseError(f"{name} {word!r} is unknown; give {' or '.join(known)}")

@@ -1,0 +1,53 @@
+"""From a surface section to guides and families of creases of constant inclination (§3.1)."""
+
+import numpy as np
+
+from plisse.geometry.mesh import ReferenceMesh
+from plisse.geometry.surface import Surface as Reference
+from plisse.layout.family import Family, fan, shoot
+from plisse.layout.guides import Guide, boundary_guide, guide_through, section_guide
+from plisse.layout.positions import fan_radius
+from plisse.recipe import Surface, SurfacePattern
+
+__all__ = ["family_of", "guide_of"]
+
+SIDEWAYS = 0.99  # cosine of the angle between normal and x axis from which angles are counted from the y axis
+
+
+def guide_of(section: Surface, mesh: ReferenceMesh, surface: Reference) -> Guide:
+    """The guide of a surface section; raises InvalidDesign or Infeasible where it does not lie on the surface."""
+    if section.guide_boundary is not None:
+        return boundary_guide(surface, mesh, section.guide_boundary - 1)
+    if section.guide_section is not None:
+        return section_guide(surface, mesh, section.guide_section.point, section.guide_section.normal)
+    return guide_through(surface, section.guide, section.guide_closed)
+
+
+def family_of(section: Surface, recipe: SurfacePattern, mesh: ReferenceMesh, surface: Reference) -> Family:
+    """The creases that leave the guide, or the point, of a surface section; a checked recipe has all they need.
+
+    Raises Infeasible where there is no room for them, or where they end at once.
+    """
+    assert recipe.theta is not None
+    assert recipe.width is not None
+    assert recipe.amplitude is not None
+    theta, above, outline = np.radians(recipe.theta), section.side == "above", section.crop == "outline"
+    beyond = section.beyond or (outline and not section.boundary)
+    length = mesh.diagonal if section.reach is None and beyond else section.reach
+    if section.point is not None:
+        assert recipe.creases is not None
+        turn = section.directions
+        sector = (np.radians(turn[0]), np.radians(turn[1])) if isinstance(turn, list) else None
+        radius = fan_radius(recipe.creases, theta=theta, width=recipe.width, amplitude=recipe.amplitude, sector=sector)
+        return fan(surface, section.point, theta=theta, creases=recipe.creases, radius=radius, sector=sector,
+                   towards=_first_direction(surface, section.point), length=length, beyond=beyond, above=above)
+    angle = section.directions if isinstance(section.directions, float) else 90.0
+    return shoot(surface, guide_of(section, mesh, surface), theta=theta, width=recipe.width, amplitude=recipe.amplitude,
+                 creases=recipe.creases, angle=np.radians(angle), tuned=section.directions in (None, "tuned"), length=length,
+                 beyond=beyond, above=above)
+
+
+def _first_direction(surface: Reference, point: list[float]) -> np.ndarray:
+    """The x axis, or the y axis where the surface is orthogonal to the x axis."""
+    normal = surface.project(np.array([point])).normals[0]
+    return np.eye(3)[1 if abs(normal[0]) > SIDEWAYS else 0]

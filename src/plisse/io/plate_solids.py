@@ -1,0 +1,108 @@
+"""Plates as solids in files: OBJ with a group per plate, STL, GLB and 3MF with an object per plate."""
+
+import zipfile
+from pathlib import Path
+from xml.sax.saxutils import escape
+
+import numpy as np
+
+from plisse.draw.colours import PAPER, rgb
+from plisse.errors import InvalidDesign
+from plisse.io.atomic import written
+from plisse.io.threemf import CONTENT_TYPES, RELATIONSHIPS, UNITS
+from plisse.recipe import MILLIMETRES
+from plisse.transform.plates import Plates
+from plisse.transform.solids import Solid, solids
+
+__all__ = ["FORMATS", "require_format", "write_plate_solids", "write_solid_stl"]
+
+
+def require_format(path: str | Path) -> None:
+    """Nothing; raises InvalidDesign for a file name that no format of FORMATS belongs to."""
+    suffix = Path(path).suffix.lower()
+    if suffix not in FORMATS:
+        raise InvalidDesign(f"plates cannot be written as {suffix}; give a file that ends in {', '.join(FORMATS)}, "
+                            "or a directory")
+
+
+def write_plate_solids(plates: Plates, path: str | Path, *, title: str = "", units: str = "mm") -> None:
+    """Write all plates where the structure has them, in the format that the file name asks for.
+
+    OBJ and 3MF keep model units, STL is in millimetres, GLB in metres with y upwards. Raises InvalidDesign for other
+    formats, PlisseError where the file cannot be written.
+    """
+    require_format(path)
+    with written(path) as aside:
+        FORMATS[Path(path).suffix.lower()](solids(plates), aside, title, units)
+
+
+def write_solid_stl(solid: Solid, path: str | Path, units: str = "mm") -> None:
+    """Write one solid as binary STL in millimetres."""
+    _write_stl([solid], Path(path), "", units)
+
+
+def _write_obj(parts: list[Solid], path: Path, title: str, units: str) -> None:
+    lines, start = [f"# plisse plates {title}".rstrip(), f"# units: {units}"], 1
+    for number, part in enumerate(parts, 1):
+        lines.append(f"g {_name(number, len(parts))}")
+        lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in part.vertices.tolist()]
+        lines += ["f " + " ".join(str(start + vertex) for vertex in face) for face in part.faces]
+        start += len(part.vertices)
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")
+
+
+def _write_stl(parts: list[Solid], path: Path, title: str, units: str) -> None:
+    path.write_bytes(_joined(parts, MILLIMETRES[units]).export(file_type="stl"))
+
+
+def _write_glb(parts: list[Solid], path: Path, title: str, units: str) -> None:
+    import trimesh
+
+    scene = trimesh.Scene()
+    material = trimesh.visual.material.PBRMaterial(baseColorFactor=[*rgb(PAPER), 1.0], metallicFactor=0.0,
+                                                   roughnessFactor=0.9)
+    for number, part in enumerate(parts, 1):
+        corners = part.vertices[part.triangles][..., [0, 2, 1]] * [1, 1, -1] * (MILLIMETRES[units] / 1000)
+        # corners of their own for every triangle: plates have sharp edges
+        mesh = trimesh.Trimesh(corners.reshape(-1, 3), np.arange(corners.size // 3).reshape(-1, 3), process=False)
+        mesh.visual = trimesh.visual.TextureVisuals(material=material)
+        scene.add_geometry(mesh, geom_name=_name(number, len(parts)), node_name=_name(number, len(parts)))
+    path.write_bytes(scene.export(file_type="glb", include_normals=True))
+
+
+def _write_3mf(parts: list[Solid], path: Path, title: str, units: str) -> None:
+    lowest = np.min([part.vertices.min(axis=0) for part in parts], axis=0)
+    objects, items = [], []
+    for number, part in enumerate(parts, 1):
+        points = "".join(f'<vertex x="{x!r}" y="{y!r}" z="{z!r}"/>' for x, y, z in (part.vertices - lowest).tolist())
+        corners = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in part.triangles.tolist())
+        objects.append(f'<object id="{number}" type="model" name="{_name(number, len(parts))}"><mesh><vertices>{points}'
+                       f"</vertices><triangles>{corners}</triangles></mesh></object>")
+        items.append(f'<item objectid="{number}"/>')
+    model = ('<?xml version="1.0" encoding="UTF-8"?>\n'
+             f'<model unit="{UNITS[units]}" xml:lang="en-US" '
+             'xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">\n'
+             f'<metadata name="Title">{escape(title or "plates")}</metadata>\n<resources>\n' + "\n".join(objects)
+             + "\n</resources>\n<build>" + "".join(items) + "</build>\n</model>\n")
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as package:
+        for name, text in (("[Content_Types].xml", CONTENT_TYPES), ("_rels/.rels", RELATIONSHIPS),
+                           ("3D/3dmodel.model", model)):
+            entry = zipfile.ZipInfo(name, date_time=(1980, 1, 1, 0, 0, 0))
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            package.writestr(entry, text)
+
+
+def _joined(parts: list[Solid], scale: float):
+    """All solids as one trimesh mesh."""
+    import trimesh
+
+    starts = np.cumsum([0, *(len(part.vertices) for part in parts[:-1])])
+    triangles = np.concatenate([part.triangles + start for part, start in zip(parts, starts, strict=True)])
+    return trimesh.Trimesh(np.concatenate([part.vertices for part in parts]) * scale, triangles, process=False)
+
+
+def _name(number: int, count: int) -> str:
+    return f"plate_{number:0{len(str(count))}d}"
+
+
+FORMATS = {".obj": _write_obj, ".stl": _write_stl, ".glb": _write_glb, ".3mf": _write_3mf}

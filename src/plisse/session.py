@@ -1,0 +1,74 @@
+"""A design under one's hand: change a number, get the exact structure, on patterns that are kept."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from plisse.errors import InvalidDesign
+from plisse.io.designs import design_from_dict, read_design
+from plisse.pipeline import design
+from plisse.recipe import Design, SurfaceDesign
+from plisse.result import Result
+from plisse.solve.workspace import Workspace
+
+__all__ = ["Session"]
+
+Progress = Callable[[str, float], None]
+SECTIONS = ("pattern", "curve", "surface", "closed_form", "march", "solve")
+
+
+class Session:
+    """A design, its latest result, and the patterns of linear systems that designs of its size share.
+
+    Every answer is what `plisse.design` gives for the same recipe, whatever was tried before. One session belongs to one
+    thread. Raises InvalidDesign for impossible recipes; the session then stays as it was.
+    """
+
+    def __init__(self, recipe: Design | SurfaceDesign | dict | str | Path, *, progress: Progress | None = None):
+        self._workspace = Workspace()
+        self.recipe = read_design(recipe) if isinstance(recipe, str | Path) else _checked(recipe)
+        self.result = self._solved(self.recipe, progress)
+
+    def update(self, changes: dict | None = None, /, *, progress: Progress | None = None, **values) -> Result:
+        """The structure after changes: keys as in a design (`theta=30`, `width=5`), or `{"section.key": value}`.
+
+        A value None brings a key's default back. Keys that stand in one section only need not name it.
+        """
+        data = self.recipe.to_dict()
+        for name, value in {**(changes or {}), **values}.items():
+            section, key = self._place(name, data)
+            place = data if section is None else data.setdefault(section, {})
+            if value is None:
+                place.pop(key, None)
+            else:
+                place[key] = value
+        recipe = design_from_dict(data)
+        result = self._solved(recipe, progress)
+        self.recipe, self.result = recipe, result
+        return result
+
+    def _solved(self, recipe: Design | SurfaceDesign, progress: Progress | None) -> Result:
+        return design(recipe, progress=progress, workspace=self._workspace)
+
+    def _place(self, name: str, data: dict) -> tuple[str | None, str]:
+        """Section and key that a name means."""
+        section, dot, key = name.partition(".")
+        if dot:
+            return section, key
+        if name in (*SECTIONS, "units"):
+            return None, name
+        fitting = [section for section in SECTIONS if name in _keys(getattr(self.recipe, section, None))]
+        if len(fitting) == 1:
+            return fitting[0], name
+        if fitting:
+            raise InvalidDesign(f"{name} stands in the sections {' and '.join(fitting)}; say which, as in "
+                                f"update({{\"{fitting[0]}.{name}\": …}})")
+        known = sorted({key for section in SECTIONS for key in _keys(getattr(self.recipe, section, None))})
+        raise InvalidDesign(f"a design of this kind has no key {name}; its keys are {', '.join(known)}")
+
+
+def _checked(recipe: Design | SurfaceDesign | dict) -> Design | SurfaceDesign:
+    return design_from_dict(recipe if isinstance(recipe, dict) else recipe.to_dict())
+
+
+def _keys(section) -> tuple[str, ...]:
+    return getattr(section, "__struct_fields__", ())

@@ -1,0 +1,35 @@
+"""What motion and offsets need: a structure that is exactly principal (§2.4)."""
+
+import numpy as np
+
+from plisse.errors import InvalidStructure
+from plisse.measure.planarity import planarity_defect
+from plisse.measure.sectors import angle_defect, principal_defect
+from plisse.measure.verdict import EXACT
+from plisse.structure.place import place_of
+from plisse.structure.pleated import PleatedStructure
+
+__all__ = ["require_principal"]
+
+
+def require_principal(structure: PleatedStructure, consequence: str) -> None:
+    """Nothing; raises InvalidStructure with place, defect and `consequence` where a structure is not exactly principal."""
+    topology, vertices = structure.topology, structure.vertices
+    valence = np.bincount(topology.corners.vertex, minlength=topology.vertex_count)
+    odd = ~topology.is_boundary & (valence != 4)
+    if odd.any():
+        vertex = int(np.argmax(odd))
+        raise InvalidStructure(f"the structure is not principal: {valence[vertex]} faces meet in vertex {vertex}, not four, "
+                               f"so {consequence}")
+    planarity = planarity_defect(topology, vertices)
+    face = int(np.argmax(planarity))
+    if not planarity[face] <= EXACT:
+        raise InvalidStructure(f"the structure is not exact: face {face} misses its plane by {planarity[face]:.1e} "
+                               f"(limit {EXACT:.0e}), so {consequence}; solve it first")
+    for what, defect, remedy in (("exact: angles miss 2π", np.abs(angle_defect(topology, vertices)), "solve it first"),
+                                 ("principal: opposite angles miss π", principal_defect(topology, vertices),
+                                  "design it with solve.principal = true")):
+        vertex = int(np.argmax(defect))
+        if not defect[vertex] <= EXACT:
+            raise InvalidStructure(f"the structure is not {what} by {defect[vertex]:.1e} rad (limit {EXACT:.0e}) at vertex "
+                                   f"{vertex} ({place_of(topology, vertex)}), so {consequence}; {remedy}")
