@@ -19,7 +19,9 @@ NAMES = sorted(entry.name.removesuffix(".toml") for entry in GALLERY.iterdir() i
 SIZES = {"fig01a": (9, 76, False), "fig01c": (19, 102, False), "fig01d": (12, 242, False), "fig09": (19, 40, True),
          "fig10": (3, 3, False), "fig16": (17, 100, True), "fig19": (17, 400, True), "fig24a": (16, 200, True),
          "fig24b": (7, 240, True), "fig27": (11, 200, False), "fig02": (50, 72, False), "fig20c": (60, 49, False)}
-PRINCIPAL = {"march-fan", "march-shell", "fig01a", "fig01c", "fig01d", "fig05", "fig09", "fig10", "fig26", "fig27"}
+PRINCIPAL = {"march-fan", "march-shell", "fig01a", "fig01c", "fig01d", "fig05", "fig07a", "fig07b", "fig09",
+             "fig10", "fig26", "fig27"}
+STRIPS = {"fig06"}
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +41,7 @@ def test_the_designs_of_the_figures_are_all_there():
     assert wanted <= set(NAMES)
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name != "fig25"])
+@pytest.mark.parametrize("name", sorted({*NAMES} - {"fig25", *STRIPS}))
 def test_every_design_is_exact_and_regular(name, results):
     report = results(name).report
     assert report.status == "exact", report.reasons
@@ -53,6 +55,30 @@ def test_every_design_is_exact_and_regular(name, results):
     if name in PRINCIPAL:
         assert report.principal
         assert report.principal_defect.max <= 1e-11
+
+
+@pytest.mark.parametrize("name", sorted(STRIPS))
+def test_strips_unfold_straight_at_a_constant_angle_to_their_surface(name, results):
+    report = results(name).report
+    assert report.status == "exact", report.reasons
+    assert report.angle_defect.max < 1e-12
+    assert not report.warnings
+    theta = report.design["strips"]["theta"]
+    for entry in report.strips:
+        assert entry.inclination_deg.min == pytest.approx(90 - theta, abs=0.05)  # second order in the samples
+        assert entry.inclination_deg.max == pytest.approx(90 - theta, abs=0.05)
+        assert entry.width == report.design["strips"]["width"]
+
+
+def test_fig07a_is_a_helix_and_its_spiral_fig07b_a_subdivision(results):
+    helical, grown = (member.structure for member in results("fig07a").family)
+    edges = helical.topology.edges.vertices
+    before, after = (s.vertices[edges[:, 1]] - s.vertices[edges[:, 0]] for s in (helical, grown))
+    assert norm(np.cross(before, after)).max() < 1e-12 * (norm(before) * norm(after)).max()
+    scales = norm(after) / norm(before)
+    assert scales.max() / scales.min() > 2
+    counts = [len(member.structure.topology.creases) for member in results("fig07b").family]
+    assert counts == [5, 2 + 9, 2 + 27]
 
 
 @pytest.mark.parametrize("name", SIZES)

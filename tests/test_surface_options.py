@@ -86,8 +86,9 @@ def test_the_side_of_whole_surfaces_can_be_chosen_as_well():
     for side in ("below", "above"):
         structure = made({**surface, "side": side}, {"width": 12}).structure
         lines = [structure.vertices[crease.vertices] for crease in structure.topology.creases if len(crease.vertices) > 12]
-        found = [(line - (at := field.project(line)).positions, at.normals) for line in sorted(lines, key=lambda p: p[:, 1].mean())]
-        sides[side] = np.array([np.sign(np.median(dot(*pair))) for pair in found])
+        lines.sort(key=lambda line: line[:, 1].mean())
+        heights = [dot(line - (at := field.project(line)).positions, at.normals) for line in lines]
+        sides[side] = np.sign([np.median(height) for height in heights])
         assert (sides[side][1:] == -sides[side][:-1]).all()
     np.testing.assert_array_equal(sides["above"], -sides["below"])
 
@@ -122,6 +123,23 @@ def test_principal_families_with_uneven_gaps_are_diagnosed():
                             "solve": {"principal": True}})
     assert result.status != "exact"
     assert "times as wide at one place as at another" in " ".join(result.report.reasons)
+
+
+def test_whole_surfaces_become_principal_where_they_bend_evenly():
+    surface = {"height": "12*sin(x/45)*cos(y/60)", "x": [-100, 100], "y": [-70, 70], "centre": [0, -420, 0]}
+    result = made(surface, {"width": 12}, principal=True)
+    assert result.report.principal
+    assert result.report.principal_defect.max < 1e-12
+    assert result.report.deviation.mean_amplitudes < 0.5
+
+
+def test_pleats_stay_upright_below_the_amplitude_that_the_report_names():
+    sizes = {**SIZES, "theta": 25}
+    limit = 0.4 * np.cos(np.radians(50)) / (2 * np.sin(np.radians(25)))
+    upright = made({**ROOF, "reach": 1.6, "overhang": False}, {**sizes, "amplitude": 0.8 * limit})
+    leaning = made({**ROOF, "reach": 1.6}, {**sizes, "amplitude": 1.2 * limit})
+    assert not any("overhang" in warning for warning in upright.report.warnings)
+    assert any(f"amplitude below {limit:.3g}" in warning for warning in leaning.report.warnings)
 
 
 def test_the_paper_method_runs_on_families_and_keeps_its_weights():

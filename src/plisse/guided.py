@@ -96,7 +96,7 @@ def _over(recipe: SurfaceDesign, start: Start, structure: PleatedStructure, repo
     report = msgspec.structs.replace(
         report, start=start_defects(first), coverage=coverage, seconds=watch.stop(), design=recipe.to_dict(),
         deviation=deviation_of(deviation, mesh.diagonal, start.amplitude),
-        warnings=[*overhang_notes(structure, surface), *overlap_notes(report)])
+        warnings=[*overhang_notes(structure, surface, recipe.pattern), *overlap_notes(report)])
     return Result(recipe, report, start.pattern, first, structure, Overlay(mesh, deviation.distances, start.amplitude))
 
 
@@ -124,7 +124,8 @@ def _to_the_outline(recipe: SurfaceDesign, family: Family, mesh: ReferenceMesh, 
     report = msgspec.structs.replace(
         report, seconds=watch.stop(), design=recipe.to_dict(), coverage=coverage, method="optimised, cropped to the outline",
         deviation=deviation_of(deviation, mesh.diagonal, amplitude), crease_deviation=spread(astray / amplitude),
-        iterations=len(found.history), warnings=[*notes, *overhang_notes(structure, surface), *overlap_notes(report)])
+        iterations=len(found.history),
+        warnings=[*notes, *overhang_notes(structure, surface, recipe.pattern), *overlap_notes(report)])
     return Result(recipe, report, structure=structure, overlay=Overlay(mesh, deviation.distances, amplitude))
 
 

@@ -40,8 +40,8 @@ def design(recipe: Design | SurfaceDesign | dict | str | Path, *, progress: Prog
     """The structure that a recipe asks for, with the pattern it follows and the report that proves it.
 
     `recipe` is a Design, nested dictionaries as in TOML, or the path of a design file. `progress(stage, fraction)` is
-    called as work goes on; designs of one size that share a `workspace` are solved faster. Raises InvalidDesign for impossible recipes; geometry that breaks down on the way is
-    reported (status "infeasible"), not raised.
+    called as work goes on; designs of one size that share a `workspace` are solved faster. Raises InvalidDesign for
+    impossible recipes; geometry that breaks down on the way is reported (status "infeasible"), not raised.
     """
     recipe = _checked(recipe)
     watch = Stopwatch(progress)

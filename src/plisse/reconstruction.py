@@ -20,19 +20,21 @@ from plisse.geometry.surface import Surface as Reference
 from plisse.geometry.vectors import dot
 from plisse.io.meshes import read_mesh
 from plisse.layout.coverage import AreaSamples, covered
+from plisse.layout.positions import upright_amplitude
 from plisse.layout.rows import ChartedSurface
 from plisse.measure.inclination import crease_inclinations
 from plisse.measure.mid_surface import MidSurfaceDeviation, mid_surface_deviation
 from plisse.measure.planarity import face_normals
 from plisse.measure.regularity import OPENING_RANGE
-from plisse.recipe import Surface, SurfaceDesign
+from plisse.recipe import Surface, SurfaceDesign, SurfacePattern
 from plisse.result import Deviation, Interval
 from plisse.solve.edited import edited_structure
 from plisse.solve.finer import Sampled, finer
+from plisse.solve.principal_surface import nearest_principal
 from plisse.solve.whole_surface import FOLDABLE, REACH, WholeSurface, whole_surface
 from plisse.structure.pleated import PleatedStructure
 
-__all__ = ["deviation_of", "edited_vertices", "inclinations_of", "laid_out_over", "lies_over",
+__all__ = ["deviation_of", "edited_vertices", "inclinations_of", "laid_out_over", "lies_over", "made_principal",
            "overhang_notes", "reference_surface", "sampled", "solved_again"]
 
 GRAPH = 0.9999
@@ -152,6 +154,22 @@ def sampled(found: WholeSurface, mesh: ReferenceMesh, surface: Reference, sample
                    deviation=mid_surface_deviation(surface, structure.vertices, structure.topology.quads))
 
 
+def made_principal(found: WholeSurface, mesh: ReferenceMesh, surface: Reference, overhang: bool) -> WholeSurface:
+    """A principal structure near one over a whole surface, or the same one with a note where none was found."""
+    structure = nearest_principal(found.structure, OPENING_RANGE[0] if overhang else FOLDABLE)
+    if structure is None:
+        note = ("no principal structure was found near the general one: fold angles would have to be constant along "
+                "creases, and the surface bends too unevenly for that; try another centre, or solve.principal = false")
+        return replace(found, notes=(*found.notes, note))
+    part, layout = found.best.solved.grid, found.best.layout
+    inclination = crease_inclinations(structure.topology, structure.vertices, surface.project(structure.vertices).normals,
+                                      layout.net.outward.reshape(-1, 3)[part.used])
+    coverage, deviation = lies_over(structure, mesh, surface, layout.sizes.amplitude)
+    note = f"principal: θ runs from {np.degrees(inclination.min()):.0f}° to {np.degrees(inclination.max()):.0f}°"
+    return replace(found, structure=structure, inclination=inclination, coverage=coverage,
+                   deviation=deviation, notes=(*found.notes, note))
+
+
 def lies_over(structure: PleatedStructure, mesh: ReferenceMesh, surface: Reference,
               amplitude: float) -> tuple[float, MidSurfaceDeviation]:
     """Fraction of the mesh's area under a structure, and the distance of its mid-surface."""
@@ -168,15 +186,19 @@ def deviation_of(found: MidSurfaceDeviation, diagonal: float, amplitude: float) 
                      found.mean / amplitude)
 
 
-def overhang_notes(structure: PleatedStructure, surface: Reference) -> list[str]:
+def overhang_notes(structure: PleatedStructure, surface: Reference, pattern: SurfacePattern) -> list[str]:
     """Which part of the faces leans over the reference so far that it hides another, and what would keep it from that."""
+    assert pattern.theta is not None
+    assert pattern.width is not None
     quads = structure.topology.quads
     below = surface.project(structure.vertices[quads].mean(axis=1)).normals
     facing = dot(face_normals(structure.topology, structure.vertices), below)
     share = float(np.mean(facing * np.sign(facing.sum()) < 0))
     if share == 0:
         return []
-    return [f"{100 * share:.0f} % of the faces overhang; inclinations below 45° keep pleats from that"]
+    limit = upright_amplitude(float(np.radians(pattern.theta)), pattern.width)
+    return [f"{100 * share:.0f} % of the faces overhang; " + ("pleats do from pattern.theta = 45 on" if limit == 0 else
+            f"at this theta and width an amplitude below {limit:.3g} keeps them from that")]
 
 
 def inclinations_of(found: WholeSurface) -> list[Interval]:

@@ -20,6 +20,7 @@ from plisse.reconstruction import (
     inclinations_of,
     laid_out_over,
     lies_over,
+    made_principal,
     reference_surface,
     sampled,
     solved_again,
@@ -53,12 +54,15 @@ def reconstructed(recipe: SurfaceDesign, watch: Stopwatch) -> Result:
             mesh, found = solved_again(found, mesh, vertices, bool(recipe.surface.overhang))
         elif recipe.pattern.samples is not None:
             found = sampled(found, mesh, surface, recipe.pattern.samples, bool(recipe.surface.overhang))
+        if recipe.solve.principal:
+            found = made_principal(found, mesh, surface, bool(recipe.surface.overhang))
     except Infeasible as error:
         return broken_down(recipe, [str(error)], watch)
     watch.start("flatten", 0.9)
     structure = flatten(found.structure, best_cut(found.structure))
     watch.start("measure", 0.95)
-    report, amplitude = assess(structure, units=recipe.units), found.best.layout.sizes.amplitude
+    report = assess(structure, principal=recipe.solve.principal, units=recipe.units)
+    amplitude = found.best.layout.sizes.amplitude
     report = msgspec.structs.replace(
         report, seconds=watch.stop(), design=recipe.to_dict(), method="fitted inclination", coverage=found.coverage,
         deviation=deviation_of(found.deviation, mesh.diagonal, amplitude), inclination_deg=inclinations_of(found),

@@ -78,7 +78,8 @@ def test_a_layout_that_someone_may_have_edited_is_not_overwritten(tmp_path, caps
     ("curve.toml", '[curve]\nkind = "arc"\nradius = 10\n[pattern]\ncreases = 5\nwidth = 1\namplitude = 0.5\n',
      "no surface section"),
     ("ring.toml", "[surface]\ntorus = [30, 10]\nguide = [[40, 0, 0], [0, 40, 0]]\n[pattern]\ntheta = 40\nwidth = 2\n"
-     "amplitude = 1\n", "no graph"),
+     "amplitude = 1\n", "has a guide"),
+    ("torus.toml", "[surface]\ntorus = [30, 10]\n", "no boundary"),
 ])
 def test_what_is_no_surface_is_said_in_one_line_and_nothing_is_written(tmp_path, capsys, name, text, says):
     if text is not None:

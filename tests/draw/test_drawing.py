@@ -53,5 +53,5 @@ def test_the_caption_stands_in_the_margin_and_only_where_there_is_room(cones):
     drawing = crease_pattern(cones, title="fan")
     text, = captioned(drawing).layer("text").texts
     assert text.words.startswith("fan") and f"{drawing.size[0]:.1f} × {drawing.size[1]:.1f} mm" in text.words
-    assert 0 < text.at[1] and text.at[1] + text.height < 5
+    assert text.at[1] > 0 and text.at[1] + text.height < 5
     assert captioned(crease_pattern(cones, title="long " * 60)).layer("text").texts == ()

@@ -1,5 +1,7 @@
 """Sheets of developments that overlap: disjoint, complete, numbered, and they go together again."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 import shapely
@@ -57,7 +59,7 @@ def test_outlines_lie_inside_the_sheet_and_apart_from_each_other(plans, figure):
 def test_every_cut_edge_is_numbered_once_on_either_side(plans, figure):
     plan = plans[figure]
     numbered = [path for joint in plan.joints for side in (0, 1) for path in joint.edges(side)]
-    edges = sorted(tuple(sorted(map(int, pair))) for path in numbered for pair in zip(path[:-1], path[1:], strict=True))
+    edges = sorted(tuple(sorted(map(int, pair))) for path in numbered for pair in pairwise(path))
     topology, piece = plan.paper.topology, np.zeros(plan.paper.topology.face_count, int)
     for one in plan.pieces:
         piece[one.faces] = one.number

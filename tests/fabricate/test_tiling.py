@@ -15,7 +15,8 @@ def test_windows_cover_the_sheet_and_neighbours_share_marks(size, paper):
     windows = [shapely.box(*tile.corner, *np.add(tile.corner, layout.window)) for tile in layout.tiles]
     assert shapely.union_all(windows).contains(shapely.box(0, 0, *size))
     assert max(layout.window) < max(paper) and len(layout.tiles) == layout.rows * layout.columns
-    seen = {(tile.row, tile.column): {k for k, mark in enumerate(layout.marks) if window.buffer(1e-9).contains(shapely.Point(mark))}
+    marks = shapely.points(layout.marks)
+    seen = {(tile.row, tile.column): set(np.flatnonzero(shapely.covers(window, marks)))
             for tile, window in zip(layout.tiles, windows, strict=True)}
     for (row, column), marks in seen.items():
         for beside in ((row, column + 1), (row + 1, column)):

@@ -1,3 +1,4 @@
+import ezdxf
 import numpy as np
 import pytest
 
@@ -21,6 +22,14 @@ def test_every_format_is_written_and_nothing_else(closed_cones, tmp_path):
     assert {file.suffix.lower() for file in tmp_path.iterdir()} == set(SUFFIXES)
     assert all(file.stat().st_size > 400 for file in tmp_path.iterdir())
     assert len(list(tmp_path.iterdir())) == len(SUFFIXES)
+
+
+def test_the_sheet_for_cad_has_the_five_layers(cones, tmp_path):
+    export(Model(cones, "mm", "fan"), [tmp_path / "s.dxf"])
+    document = ezdxf.readfile(tmp_path / "s.dxf")
+    assert {"MOUNTAIN", "VALLEY", "CUT", "RULING", "TEXT"} <= {layer.dxf.name for layer in document.layers}
+    text, = document.modelspace().query("TEXT")
+    assert text.dxf.text.startswith("fan") and not document.audit().errors
 
 
 @pytest.mark.parametrize("fixture", ["cones", "closed_cones"])

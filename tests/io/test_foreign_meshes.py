@@ -74,6 +74,21 @@ def test_faces_that_came_apart_on_export_are_welded_in_place(cones, tmp_path):
     assert np.array_equal(back.vertices[back.topology.quads][:, 0], cones.vertices[cones.topology.quads][:, 0])
 
 
+def test_polylines_with_vertices_of_their_own_are_laid_on_the_mesh(cones, tmp_path):
+    text = obj_of(cones.topology.faces, cones.vertices, "o mesh")
+    for crease in cones.topology.creases:
+        points = cones.vertices[crease.vertices] + 1e-7
+        text += "o curve\n" + "".join(f"v {x:.7f} {y:.7f} {z:.7f}\n" for x, y, z in points.tolist())
+        text += "l " + " ".join(str(k - len(points)) for k in range(len(points))) + "\n"
+    (tmp_path / "curves.obj").write_text(text)
+    model = load_obj(tmp_path / "curves.obj")
+    assert crease_edges(model.structure.topology) == crease_edges(cones.topology)
+    assert model.title == "mesh" and model.structure.topology.vertex_count == 175
+    (tmp_path / "astray.obj").write_text(text + "v 1 2 3\nl -1 1\n")
+    with pytest.raises(InvalidStructure, match="no edge of a face"):
+        load_obj(tmp_path / "astray.obj")
+
+
 def test_a_sheet_in_one_piece_is_not_glued_where_it_touches_itself(closed_cones, tmp_path):
     opened = closed_cones.opened
     (tmp_path / "slit.obj").write_text(obj_of(opened.topology.faces, opened.vertices))

@@ -9,6 +9,7 @@ BASE = {"height": "0.1*x*y", "x": [-1, 1], "y": [-1, 1]}
 GUIDE = {"guide": [[0, 0, 0], [1, 0, 0]]}
 SIZES = {"theta": 50, "width": 0.2, "amplitude": 0.1}
 POINT = {"point": [0, 0, 0]}
+PULL = [{"point": [0, 0, 0], "displacement": [0, 0, 1], "radius": 1}]
 
 
 @pytest.mark.parametrize(("surface", "pattern", "solve", "expected"), [
@@ -28,19 +29,23 @@ POINT = {"point": [0, 0, 0]}
     ({"reach": 2}, {}, {}, "surface.reach belongs"),
     ({"crop": "rectangle"}, {}, {}, "always cropped to its outline"),
     ({**GUIDE, "overhang": False}, SIZES, {}, "overhang from 45 degrees on"),
+    ({**GUIDE, "overhang": False}, {**SIZES, "theta": 35}, {}, r"amplitudes from 0\.0596 on overhang"),
+    ({**GUIDE, "seams": 2}, SIZES, {}, "surface.seams cut a whole surface apart"),
+    ({"seams": 2, "centre": [0, 0, 0]}, {**SIZES, "initial": "normal"}, {}, "in one piece"),
+    ({"seams": -1}, {}, {}, "a whole number from 0 to 100"),
     ({**GUIDE, "boundary": True, "beyond": True}, SIZES, {}, "surface.boundary"),
     ({**POINT, "crop": "outline"}, {**SIZES, "creases": 8}, {}, "open families"),
     ({**GUIDE, "crop": "outline"}, SIZES, {"principal": True}, "solve.principal needs a whole grid"),
     ({**GUIDE, "crop": "outline"}, SIZES, {"method": "paper"}, "method = \"paper\" needs a whole grid"),
-    ({**GUIDE, "handles": [{"point": [0, 0, 0], "displacement": [0, 0, 1], "radius": 1}]}, SIZES, {}, "surface.handles edits"),
+    ({**GUIDE, "handles": PULL}, SIZES, {}, "surface.handles edits"),
     ({**GUIDE, "guide_section": {"point": [0, 0, 0], "normul": [1, 0, 0]}}, SIZES, {}, "known here: point, normal"),
     ({**GUIDE}, {**SIZES, "initial": "normal"}, {}, "failure of whole surfaces"),
-    ({}, {}, {"principal": True}, "solve.principal needs constant fold angles"),
+    ({}, {"samples": 99}, {"principal": True}, "solve.principal does not go with pattern.samples"),
     ({}, {}, {"method": "paper"}, "solve.method"),
     ({}, {}, {"cut": 10}, "solve.cut"),
     ({}, {"creases": 12}, {}, "pattern.creases"),
     ({}, {"initial": "normal"}, {}, "surface.centre"),
-    ({"handles": [{"point": [0, 0, 0], "displacement": [0, 0, 1], "radius": 1}]}, {"samples": 80}, {}, "pattern.samples"),
+    ({"handles": PULL}, {"samples": 80}, {}, "pattern.samples"),
     ({"edited_file": "x.obj"}, {}, {}, "surface.file"),
     (GUIDE, SIZES, {"weights": [0, 0, 0, 0, 0]}, "all 0"),
 ])
@@ -57,4 +62,5 @@ def test_the_points_of_a_guide_file_are_taken_into_the_design(tmp_path):
     assert design.surface.guide_file is None
     for closed, name, expected in ((True, "line.csv", "at least 3 rows"), (False, "nowhere.csv", "there is no curve file")):
         with pytest.raises(InvalidDesign, match=expected):
-            design_from_dict({"surface": {**BASE, "guide_file": name, "guide_closed": closed}, "pattern": SIZES}, base=tmp_path)
+            design_from_dict({"surface": {**BASE, "guide_file": name, "guide_closed": closed}, "pattern": SIZES},
+                             base=tmp_path)

@@ -32,6 +32,9 @@ class Revolved:
     def to_space(self, coordinates):
         return coordinates
 
+    def at(self, places):
+        return self.project(np.column_stack([places, np.zeros(len(places))]))
+
     def project(self, points):
         x, y = points[:, 0], points[:, 1]
         r = np.hypot(x, y)

@@ -133,5 +133,5 @@ def test_a_closed_crease_whose_parallels_do_not_close_is_refused():
     ring = alternating_cones(5, 24, closed=True)
     rng = np.random.default_rng(0)
     bent = ring.with_vertices(ring.vertices + 0.01 * rng.standard_normal(ring.vertices.shape))
-    with pytest.raises(Infeasible, match="misses itself.*cut the structure open"):
+    with pytest.raises(Infeasible, match=r"misses itself.*cut the structure open"):
         refine_folds(bent, [2])

@@ -137,7 +137,7 @@ def test_solids_are_watertight_and_oriented_and_of_the_right_volume(points):
     mesh = trimesh.Trimesh(solid.vertices, solid.triangles, process=False)
     assert mesh.is_watertight
     assert mesh.is_winding_consistent
-    assert mesh.volume == pytest.approx(strip.length * strip.width * 0.4, rel=2e-3)  # mitred: bends cost nothing at first order
+    assert mesh.volume == pytest.approx(strip.length * strip.width * 0.4, rel=2e-3)  # bends count at second order
 
 
 def test_sides_of_solids_are_planar_and_at_half_the_thickness():

@@ -89,6 +89,8 @@ def design_text(recipe: SurfaceDesign, candidate: Candidate, surface: GraphSurfa
     if centre is not None:
         lines.append(f"centre = {[float(value) for value in centre]}  # rows run around this point")
     lines.append(f"overhang = {'true' if section.overhang else 'false'}  # may pleats lean by more than 45 degrees?")
+    lines += [f"side = \"{section.side}\""] if section.side != "below" else []
+    lines += ["boundary = true"] if section.boundary else []
     if candidate.seams or section.seams is not None:
         lines.append(f"seams = {len(candidate.seams)}  # along which the sheet is cut apart")
     lines += ["", "[pattern]"]
@@ -165,7 +167,8 @@ def _row(candidate: Candidate) -> tuple[str, ...]:
     low, high = np.degrees(_inclinations(candidate))
     status = "exact" if candidate.solved.is_sound else "irregular" if candidate.solved.is_exact else "not exact"
     sector, opening = np.degrees([candidate.least_sector, candidate.least_opening])
-    return (candidate.layout.label.removeprefix("rows "), status, f"{100 * candidate.coverage:.1f} %",
+    apart = f", {len(candidate.seams)} seams" if candidate.seams else ""
+    return (candidate.layout.label.removeprefix("rows ") + apart, status, f"{100 * candidate.coverage:.1f} %",
             f"{candidate.mean_deviation:.2f}", f"{sector:.0f}°", f"{opening:.0f}°", f"{low:.0f}° to {high:.0f}°")
 
 

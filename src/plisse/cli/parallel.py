@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from plisse.recipe import Parallel
     from plisse.transform.variation import Member
 
-__all__ = ["parallel", "parse_factors", "parse_move"]
+__all__ = ["parallel"]
 
 
 def parallel(
@@ -75,6 +75,7 @@ def parallel(
     quiet
         Print nothing.
     """
+    from plisse.cli.parallel_options import crease_numbers, parse_factors, parse_move, read_handles
     from plisse.errors import PlisseError
     from plisse.io.structures import read_model
 
@@ -83,76 +84,13 @@ def parallel(
         raise PlisseError(f"{target.name} is neither a .fold nor an .obj file; give one of these")
     if target.exists() and structure.exists() and target.samefile(structure):
         raise PlisseError(f"{target} is the structure itself; choose another file with -o")
-    moves = [parse_move(text) for text in move] + ([] if handles is None else _read_handles(handles))
-    chosen = refine_fold if "all" not in refine_fold else "all"
+    moves = [parse_move(text) for text in move] + ([] if handles is None else read_handles(handles))
     recipe = _recipe({"lengths": parse_factors(lengths, "--lengths"), "widths": parse_factors(widths, "--widths"),
                       "growth": growth, "moves": moves or None, "least_scale": least_scale, "fraction": fraction, "at": at,
-                      "rounds": rounds, "refine": _numbers(chosen) if chosen else None})
+                      "rounds": rounds, "refine": crease_numbers(refine_fold)})
     model = read_model(structure)
     family = _family(model, recipe, near, open_)
     return _finish(model, family, target, json, quiet)
-
-
-def parse_factors(text: str | None, option: str) -> float | list | None:
-    """One factor, a list, or a table of [position, factor] rows; raises InvalidDesign for anything else."""
-    from plisse.errors import InvalidDesign
-
-    if text is None:
-        return None
-    try:
-        if ":" in text:
-            return [[float(part) for part in row.split(":", 1)] for row in text.split(",")]
-        values = [float(part) for part in text.split(",")]
-    except ValueError:
-        raise InvalidDesign(f"{option} {text} is neither a factor, nor factors with commas, nor a table like 0:1,0.5:2,1:1") \
-            from None
-    return values[0] if len(values) == 1 else values
-
-
-def parse_move(text: str) -> dict:
-    """Crease, point and displacement of crease,point:dx,dy,dz; raises InvalidDesign for anything else."""
-    from plisse.errors import InvalidDesign
-
-    place, colon, by = text.partition(":")
-    try:
-        crease, point = (int(part) for part in place.split(","))
-        x, y, z = (float(part) for part in by.split(","))
-    except ValueError:
-        colon = ""
-    if not colon:
-        raise InvalidDesign(f"--move {text} is not of the form crease,point:dx,dy,dz, for example 5,1:20,0,15")
-    return {"crease": crease, "point": point, "by": [x, y, z]}
-
-
-def _read_handles(path: Path) -> list[dict]:
-    from plisse.errors import InvalidDesign
-
-    try:
-        rows = [line.replace(";", ",").split(",") for line in path.read_text(encoding="utf-8-sig").splitlines() if line.strip()]
-    except (OSError, UnicodeDecodeError):
-        raise InvalidDesign(f"{path} cannot be read as text; give a file with rows crease, point, x, y, z") from None
-    out = []
-    for number, row in enumerate(rows, 1):
-        try:
-            crease, point, x, y, z = row
-            out.append({"crease": int(crease), "point": int(point), "to": [float(x), float(y), float(z)]})
-        except ValueError:
-            if number > 1:  # the first may be a header
-                raise InvalidDesign(f"row {number} of {path.name} is not crease, point, x, y, z") from None
-    if not out:
-        raise InvalidDesign(f"{path.name} has no rows crease, point, x, y, z")
-    return out
-
-
-def _numbers(texts: tuple[str, ...] | str) -> list[int] | str:
-    from plisse.errors import InvalidDesign
-
-    if isinstance(texts, str):
-        return texts
-    try:
-        return [int(text) for text in texts]
-    except ValueError:
-        raise InvalidDesign(f"--refine-fold {texts[-1]} is neither the number of a crease nor all") from None
 
 
 def _recipe(data: dict) -> Parallel:
@@ -174,8 +112,6 @@ def _recipe(data: dict) -> Parallel:
 
 def _family(model: Model, recipe: Parallel, near: Path | None, open_: bool) -> tuple[Member, ...]:
     """The structure and what becomes of it."""
-    from msgspec.structs import replace
-
     from plisse.errors import InvalidDesign
     from plisse.io.structures import read_structure
     from plisse.solve.flatten import flatten
@@ -189,11 +125,11 @@ def _family(model: Model, recipe: Parallel, near: Path | None, open_: bool) -> t
         raise InvalidDesign("--near is one way to a parallel structure, and another is given too; remove one")
     other = read_structure(near)
     if len(other.vertices) != len(base.vertices):
-        raise InvalidDesign(f"{near.name} has {len(other.vertices)} vertices, but the structure has {len(base.vertices)}; give "
-                            "a mesh with the same faces")
+        raise InvalidDesign(f"{near.name} has {len(other.vertices)} vertices, but the structure has {len(base.vertices)}; "
+                            "give a mesh with the same faces")
     found = parallel(base, positions=other.vertices, least_scale=recipe.least_scale)
     members = (Member("as given", base), Member(f"nearest to {near.stem}", found))
-    return members if recipe.refine is None else members + variations(found, replace(recipe))[1:]
+    return members if recipe.refine is None else members + variations(found, recipe)[1:]
 
 
 def _finish(model: Model, family: tuple[Member, ...], target: Path, json: bool, quiet: bool) -> int:

@@ -91,8 +91,8 @@ def sheets(
     sheet = _size(material) if material is not None else page or (600.0, 300.0)
     require_place(output)
     model = developed(read_model(structure))
-    plan = cut_up(model.structure, material=sheet, units=model.units, scale=_scale(model, scale, size), kerf=kerf, joint=joint,
-                  tab=tab, margin=margin, spacing=spacing, nesting=nest)
+    plan = cut_up(model.structure, material=sheet, units=model.units, scale=_scale(model, scale, size), kerf=kerf,
+                  joint=joint, tab=tab, margin=margin, spacing=spacing, nesting=nest)
     printed = page is not None or output.suffix.lower() == ".pdf"
     smoother = Smoother(curves, tolerance)
     drawings = sheet_drawings(plan, title=model.title, score=score, smoother=smoother, strokes=PRINT if printed else MACHINE,
@@ -137,12 +137,13 @@ def _show(plan: Sheets, smoother: Smoother, files: list[Path], pages: int) -> No
     print(f"{_counted(len(plan.pieces), 'piece')} on {_counted(plan.count, 'sheet')} of {plan.material[0]:g} × "
           f"{plan.material[1]:g} mm, {100 * plan.use:.0f} % used" + (f"; {_counted(pages, 'page')}" if pages else ""))
     if plan.joints:
-        print(f"{_counted(len(plan.joints), 'joint')}, {_counted(plan.edge_count, 'numbered edge')}: join edges of the same number")
+        print(f"{_counted(len(plan.joints), 'joint')}, {_counted(plan.edge_count, 'numbered edge')}: "
+              "join edges of the same number")
     if smoother.kind != "polyline":
         print(f"{smoother.kind}s deviate by {smoother.deviation:.3f} mm at most")
     if smoother.kept:
-        print(f"· {_counted(smoother.kept, 'line')} of straight edges: no {smoother.kind} follows within {smoother.tolerance:g} mm; "
-              "raise --tolerance, or pattern.samples of the design")
+        print(f"· {_counted(smoother.kept, 'line')} of straight edges: no {smoother.kind} follows within "
+              f"{smoother.tolerance:g} mm; raise --tolerance, or pattern.samples of the design")
     for note in plan.notes:
         print(f"· {note}")
     for file in files:

@@ -140,7 +140,8 @@ def _from_design(name: str, width: float | None, thickness: float | None, side: 
     recipe = read_design(find_design(name))
     if recipe.strips is None:
         return design(_with_strips(recipe, _wanted(width, thickness, side)))
-    changes = {key: value for key, value in (("width", width), ("thickness", thickness), ("side", side)) if value is not None}
+    options = {"width": width, "thickness": thickness, "side": side}
+    changes = {key: value for key, value in options.items() if value is not None}
     return design(replace(recipe, strips=replace(recipe.strips, **changes)))
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 __all__ = ["BACKGROUND", "BACK_OF_PAPER", "CAPTION", "EDGE", "INK", "MOUNTAIN", "PAPER", "RULING", "SHADE",
-           "VALLEY", "quality", "rgb"]
+           "UNKNOWN", "VALLEY", "opening", "quality", "rgb"]
 
 BACKGROUND = "#e6e1d8"
 PAPER = "#fdf6e7"
@@ -15,7 +15,10 @@ RULING = "#8d8271"
 EDGE = "#4d463f"
 INK = "#2e2a27"
 CAPTION = "#7b7268"
+UNKNOWN = "#cfc8bb"
 
+# both run from light to dark without turning back, which every eye can tell apart, and a printer too
+_OPENINGS = ("#16324f", "#2f5f8a", "#6c9ab5", "#b9ccc0", "#f6ecc9")
 _SCALE = ("#f4ead5", "#eec78f", "#dd8f5b", "#b8533f", "#6f2239")
 
 
@@ -26,6 +29,15 @@ def rgb(colour: str) -> np.ndarray:
 
 def quality(values: np.ndarray) -> np.ndarray:
     """Colours (…, 3) of values in 0…1, from pale paper for good to dark red for bad."""
-    stops = np.array([rgb(colour) for colour in _SCALE])
+    return _between(_SCALE, values)
+
+
+def opening(values: np.ndarray) -> np.ndarray:
+    """Colours (…, 3) of values in 0…1, from dark blue for closed to pale for open."""
+    return _between(_OPENINGS, values)
+
+
+def _between(colours: tuple[str, ...], values: np.ndarray) -> np.ndarray:
+    stops = np.array([rgb(colour) for colour in colours])
     position = np.linspace(0, 1, len(stops))
     return np.stack([np.interp(values, position, stops[:, k]) for k in range(3)], axis=-1)

@@ -24,7 +24,7 @@ TOP_OF_SCALE = (0.5, 1.0, 2.0, 4.0)  # amplitudes, the first that 98 % stay belo
 SUN = unit(np.array([-0.5, 0.6, 0.62]))
 GLASS = colours.rgb("#7f9bb0")
 IN_FRONT, ALONE = 0.22, 0.45  # opacity of the reference over the structure, and where there is none
-UNKNOWN = colours.rgb("#cfc8bb")
+UNKNOWN = colours.rgb(colours.UNKNOWN)
 
 
 def write_overlay(structure: PleatedStructure, mesh: ReferenceMesh, distances: np.ndarray, path: str | Path, *,

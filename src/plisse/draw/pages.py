@@ -6,7 +6,7 @@ import numpy as np
 
 from plisse.draw.captions import caption
 from plisse.draw.drawing import Drawing, Layer
-from plisse.draw.shapes import Line, Shape, Text
+from plisse.draw.shapes import Line, Shape, Spline, Text
 from plisse.fabricate.labels import CHARACTER
 from plisse.fabricate.tiling import BORDER, Tile, Tiling, tiling
 
@@ -16,14 +16,14 @@ CROSS, RING = 4.0, 1.5
 
 
 def printed_pages(drawings: list[Drawing], paper: tuple[float, float]) -> list[Drawing]:
-    """Pages of `paper` (width, height) mm at 1:1: drawings that are not larger stay whole, others are tiled.
+    """Pages of `paper` (width, height) mm at 1:1: drawings that fit stay whole, others are tiled.
 
     Tiles without lines are left out. Texts stand on every page that shows them whole.
     """
     pages = []
     for number, drawing in enumerate(drawings, 1):
         if fits_page(drawing.size, paper):
-            pages.append(drawing)
+            pages.append(_centred(drawing, paper))
             continue
         layout = tiling(drawing.size, paper)
         for tile in layout.tiles:
@@ -38,12 +38,34 @@ def fits_page(size: tuple[float, float], paper: tuple[float, float]) -> bool:
     return any(size[0] <= page[0] + 1e-6 and size[1] <= page[1] + 1e-6 for page in (paper, paper[::-1]))
 
 
+def _centred(drawing: Drawing, paper: tuple[float, float]) -> Drawing:
+    """A drawing in the middle of a page, upright if it fits so."""
+    upright = drawing.size[0] <= paper[0] + 1e-6 and drawing.size[1] <= paper[1] + 1e-6
+    page = paper if upright else paper[::-1]
+    shift = (np.array(page) - drawing.size) / 2
+    layers = tuple(replace(layer, lines=tuple(_moved(shape, shift) for shape in layer.lines),
+                           texts=tuple(_moved_text(text, shift) for text in layer.texts)) for layer in drawing.layers)
+    return Drawing(drawing.title, page, layers)
+
+
+def _moved(shape: Shape, shift: np.ndarray) -> Shape:
+    if isinstance(shape, Line):
+        return replace(shape, points=shape.points + shift)
+    if isinstance(shape, Spline):
+        return replace(shape, controls=shape.controls + shift)
+    return replace(shape, centre=tuple((np.array(shape.centre) + shift).tolist()))
+
+
+def _moved_text(text: Text, shift: np.ndarray) -> Text:
+    return replace(text, at=tuple((np.array(text.at) + shift).tolist()))
+
+
 def _page(drawing: Drawing, layout: Tiling, tile: Tile, layers: list[Layer], number: int) -> Drawing:
     """One page with its part of the drawing, registration marks, scale bar and its place among the pages."""
     shift = np.array(layout.origin) - tile.corner
     lines: list[Shape] = []
     for mark in layout.marks:
-        if _inside(mark[None], tile.corner, layout.window).all():
+        if _inside(mark[None], tile.corner, layout.window):
             lines += _registration(mark + shift)
     place = f"sheet {number}, row {tile.row} of {layout.rows}, column {tile.column} of {layout.columns}"
     short = f"sheet {number}, row {tile.row}, column {tile.column}"
@@ -67,8 +89,8 @@ def _cropped(drawing: Drawing, layout: Tiling, tile: Tile) -> list[Layer]:
         paths = [LineString(shape.path) for shape in layer.lines]
         parts = get_parts(intersection(np.array(paths, dtype=object), window)) if paths else []
         parts = [part for piece in parts for part in get_parts(piece) if part.geom_type == "LineString" and part.length > 0]
-        texts = tuple(replace(text, at=tuple((np.array(text.at) + shift).tolist())) for text in layer.texts
-                      if _inside(_box(text), tile.corner, layout.window).all())
+        texts = tuple(_moved_text(text, shift) for text in layer.texts
+                      if _inside(_box(text), tile.corner, layout.window))
         out.append(replace(layer, lines=tuple(Line(get_coordinates(part) + shift) for part in parts), texts=texts))
     return out
 
@@ -81,12 +103,15 @@ def _box(text: Text) -> np.ndarray:
     return np.array([start, start + width * along, start + width * along + text.height * up, start + text.height * up])
 
 
-def _inside(points: np.ndarray, corner: tuple[float, float], window: tuple[float, float]) -> np.ndarray:
-    return ((points >= np.array(corner) - 1e-9) & (points <= np.array(corner) + window + 1e-9)).all(axis=1)
+def _inside(points: np.ndarray, corner: tuple[float, float], window: tuple[float, float]) -> bool:
+    """Whether all points (N, 2) lie in a window."""
+    low = np.array(corner)
+    return bool(np.logical_and(points >= low - 1e-9, points <= low + window + 1e-9).all())
 
 
 def _registration(at: np.ndarray) -> list[Shape]:
     """A cross in a circle."""
     angle = np.linspace(0, 2 * np.pi, 24, endpoint=False)
-    return [Line(np.array([at - [CROSS, 0], at + [CROSS, 0]])), Line(np.array([at - [0, CROSS], at + [0, CROSS]])),
-            Line(at + RING * np.stack([np.cos(angle), np.sin(angle)], axis=1), closed=True)]
+    across, up = np.array([[-CROSS, 0.0], [CROSS, 0.0]]), np.array([[0.0, -CROSS], [0.0, CROSS]])
+    ring = RING * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return [Line(at + across), Line(at + up), Line(at + ring, closed=True)]

@@ -1,21 +1,23 @@
 """A folded structure as an image of paper: hidden surfaces, light, and the visible parts of lines."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import binary_closing, binary_opening
 
 from plisse.draw.camera import Camera
+from plisse.draw.colour_maps import ColourMap
+from plisse.draw.corners import corner_normals, corner_triangles
 from plisse.draw.raster import DepthBuffer, depth_planes, rasterise
-from plisse.draw.shade import occlusion, paper_colour, soft, sunlight
-from plisse.geometry.vectors import unit
-from plisse.measure.planarity import face_normals
+from plisse.draw.light import Fineness, light
+from plisse.draw.shade import paper_colour
 from plisse.structure.pleated import PleatedStructure
-from plisse.structure.topology import Topology
 
 __all__ = ["Rendering", "render", "render_triangles"]
 
 OVERSAMPLE = 2
+Paint = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,58 +48,67 @@ class Rendering:
         return _runs(fine[:, :2], _without_specks(seen, 7))
 
 
-def render(structure: PleatedStructure, camera: Camera, scale: float, margin: int = 8) -> Rendering:
-    """The structure on transparent ground, `scale` pixels per model unit, with `margin` pixels around it."""
-    return render_triangles(*_triangles(structure), camera, scale, margin)
+def render(structure: PleatedStructure, camera: Camera, scale: float, margin: int = 8, colour: ColourMap | None = None,
+           fineness: Fineness = Fineness()) -> Rendering:
+    """The structure on transparent ground, `scale` pixels per model unit, with `margin` pixels around it.
+
+    A `colour` map stands for the colour of the paper.
+    """
+    corners = corner_triangles(structure.topology)
+    triangles = structure.vertices[structure.topology.corners.vertex[corners]]
+    normals = corner_normals(structure.topology, structure.vertices)[corners]
+    paint = None if colour is None else _painter(colour, colour.values[corners])
+    return render_triangles(triangles, normals, camera, scale, margin, paint=paint, fineness=fineness)
 
 
 def render_triangles(triangles: np.ndarray, normals: np.ndarray, camera: Camera, scale: float, margin: int = 8,
-                     tints: np.ndarray | None = None) -> Rendering:
-    """Any triangles (T, 3, 3) as if made of paper, normals (T, 3, 3) at their corners; `tints` (T, 3) colour the paper."""
+                     tints: np.ndarray | None = None, paint: Paint | None = None,
+                     fineness: Fineness = Fineness()) -> Rendering:
+    """Any triangles (T, 3, 3) as if made of paper, normals (T, 3, 3) at their corners.
+
+    `tints` (T, 3) darken the paper; `paint` gives colours (N, 3) for triangles in pixels, which of
+    them are seen (N,) and where (N, 2).
+    """
     seen = camera.project(triangles)
     low, high = seen.reshape(-1, 3).min(axis=0), seen.reshape(-1, 3).max(axis=0)
     origin = low - margin / scale
     width, height = np.ceil((high - low)[:2] * scale + 2 * margin).astype(int)
     pixels = (seen - origin) * scale * OVERSAMPLE
     buffer = rasterise(pixels, width * OVERSAMPLE, height * OVERSAMPLE)
-    return Rendering(_image(buffer, pixels, camera.project(normals), tints), buffer, camera, scale, origin)
+    image = _image(buffer, pixels, camera.project(normals), tints, paint, fineness)
+    return Rendering(image, buffer, camera, scale, origin)
 
 
-def _image(buffer: DepthBuffer, pixels: np.ndarray, normals: np.ndarray, tints: np.ndarray | None) -> np.ndarray:
+def _painter(colour: ColourMap, values: np.ndarray) -> Paint:
+    """Colours of a map whose values (T, 3) at corners vary linearly over triangles."""
+    def paint(pixels: np.ndarray, owner: np.ndarray, place: np.ndarray) -> np.ndarray:
+        constant, along_x, along_y = depth_planes(pixels, values).T
+        found = constant[owner] + along_x[owner] * place[:, 0] + along_y[owner] * place[:, 1]
+        # at rims the centre of a pixel may lie outside of its sliver
+        return colour.colours(np.clip(found, values.min(axis=1)[owner], values.max(axis=1)[owner]))
+
+    return paint
+
+
+def _image(buffer: DepthBuffer, pixels: np.ndarray, normals: np.ndarray, tints: np.ndarray | None, paint: Paint | None,
+           fineness: Fineness) -> np.ndarray:
     height, width = buffer.depth.shape
     row, column = np.nonzero(buffer.triangle >= 0)
     place = np.stack([column, row], axis=1).astype(np.float32) + np.float32(0.5)
-    normal, front = _normals_at(buffer.triangle[row, column], place, pixels, normals)
+    owner = buffer.triangle[row, column]
+    normal, front = _normals_at(owner, place, pixels, normals)
     field = np.zeros((height, width, 3), np.float32)
     field[row, column] = normal
-    sun, sky = _light(buffer, pixels, field)
+    some = slice(None, None, OVERSAMPLE)
+    sun, sky = light(pixels, buffer.depth[some, some], field[some, some], OVERSAMPLE, fineness)
     image = np.zeros((height, width, 4), np.float32)
     coarse = row // OVERSAMPLE, column // OVERSAMPLE
-    image[row, column, :3] = paper_colour(normal, front, sun[coarse], sky[coarse])
+    own = None if paint is None else paint(pixels, owner, place)
+    image[row, column, :3] = paper_colour(normal, front, sun[coarse], sky[coarse], own)
     if tints is not None:
-        image[row, column, :3] *= tints[buffer.triangle[row, column]].astype(np.float32)
+        image[row, column, :3] *= tints[owner].astype(np.float32)
     image[row, column, 3] = 1
     return _reduced(image)
-
-
-def _light(buffer: DepthBuffer, pixels: np.ndarray, normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """How much sun and sky reach the paper in 0…1, one value per block of pixels, softened a little."""
-    depth, owner = _coarse(buffer)
-    row, column = np.nonzero(owner >= 0)
-    points = np.stack([column * OVERSAMPLE + 0.5, row * OVERSAMPLE + 0.5, depth[row, column]])
-    sun = np.zeros(depth.shape, np.float32)
-    sun[row, column] = sunlight(pixels, points.astype(np.float32))
-    mask = owner >= 0
-    towards = np.where(mask[..., None], normals[::OVERSAMPLE, ::OVERSAMPLE], np.array([0, 0, 1], np.float32))
-    # the sky varies slowly: every second block is enough
-    sky = occlusion(depth[::2, ::2] / (2 * OVERSAMPLE), towards[::2, ::2], radius=0.045 * max(depth.shape))
-    sky = sky.repeat(2, axis=0).repeat(2, axis=1)[:depth.shape[0], :depth.shape[1]]
-    return soft(sun, mask, 1.2), soft(sky, mask, 1.8)
-
-
-def _coarse(buffer: DepthBuffer) -> tuple[np.ndarray, np.ndarray]:
-    """Depth and triangle of one pixel in every block."""
-    return buffer.depth[::OVERSAMPLE, ::OVERSAMPLE], buffer.triangle[::OVERSAMPLE, ::OVERSAMPLE]
 
 
 def _normals_at(owner: np.ndarray, place: np.ndarray, pixels: np.ndarray,
@@ -119,37 +130,6 @@ def _reduced(image: np.ndarray) -> np.ndarray:
     total = blocks.sum(axis=(1, 3))
     colour = total[..., :3] / np.maximum(total[..., 3:], 1)
     return np.concatenate([colour, total[..., 3:] / OVERSAMPLE**2], axis=-1)
-
-
-def _triangles(structure: PleatedStructure) -> tuple[np.ndarray, np.ndarray]:
-    """Corners (T, 3, 3) of all faces cut into triangles, and smooth normals (T, 3, 3) there."""
-    topology, vertices = structure.topology, structure.vertices
-    normals = _corner_normals(topology, vertices)
-    corners = np.arange(topology.quads.size).reshape(-1, 4)
-    parts = [corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]]
-    start = topology.quads.size
-    for hub in topology.hubs:
-        fan = np.arange(1, len(hub) - 1)
-        parts.append(start + np.stack([np.zeros_like(fan), fan, fan + 1], axis=1))
-        start += len(hub)
-    picked = np.concatenate(parts)
-    return vertices[topology.corners.vertex[picked]], normals[picked]
-
-
-def _corner_normals(topology: Topology, vertices: np.ndarray) -> np.ndarray:
-    """Unit normals (C, 3) that are continuous over rulings and break at creases, as paper does."""
-    edges, faces = topology.edges, face_normals(topology, vertices)
-    meets = ~edges.is_crease & ~edges.is_boundary
-    second = np.where(meets, edges.faces[:, 1], edges.faces[:, 0])
-    across = unit(faces[edges.faces[:, 0]] + faces[second])
-    corners = topology.corners
-    key = np.sort(edges.vertices, axis=1) @ [topology.vertex_count, 1]
-    order = np.argsort(key)
-    other = np.where(corners.next_is_crease, corners.previous, corners.next)
-    wanted = np.minimum(corners.vertex, other) * topology.vertex_count + np.maximum(corners.vertex, other)
-    normals = across[order[np.searchsorted(key[order], wanted)]]
-    in_hub = corners.face >= len(topology.quads)
-    return np.where(in_hub[:, None], faces[corners.face], normals)
 
 
 def _densified(path: np.ndarray, step: float) -> np.ndarray:

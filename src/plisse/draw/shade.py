@@ -3,33 +3,37 @@
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
-from plisse.draw.colours import BACK_OF_PAPER, PAPER, SHADE, rgb
+from plisse.draw.colours import BACK_OF_PAPER, PAPER, rgb
 from plisse.draw.raster import rasterise
 from plisse.geometry.vectors import unit
 
-__all__ = ["occlusion", "paper_colour", "sunlight"]
+__all__ = ["BLUR", "SUN", "occlusion", "paper_colour", "soft", "sunlight"]
 
 SUN = unit(np.array([-0.55, 0.62, 0.66]))
 BLUR = 0.07
 
 
-def paper_colour(normals: np.ndarray, front: np.ndarray, sun: np.ndarray, sky: np.ndarray) -> np.ndarray:
+def paper_colour(normals: np.ndarray, front: np.ndarray, sun: np.ndarray, sky: np.ndarray,
+                 colour: np.ndarray | None = None) -> np.ndarray:
     """Colours (N, 3) of points with unit normals (N, 3) towards the viewer.
 
-    `front` says which side of the paper is seen, `sun` and `sky` in 0…1 how much of each reaches the point.
-    Paper lets some sun through and folds are lit by their own walls, so shadows stay warm and never black.
+    `front` says which side of the paper is seen, `sun` and `sky` in 0…1 how much of each reaches the point; `colour`
+    (N, 3) stands for the paper's own. Folds are lit by their own walls and paper lets some sun through, so shadows stay
+    warm and never black.
     """
     facing = normals @ SUN.astype(np.float32)
-    light = 0.56 * np.maximum(facing, 0) * sun + 0.12 * np.maximum(-facing, 0)
-    light += (0.34 + 0.14 * normals[:, 1]) * sky + 0.12 * np.sqrt(sky)
-    bright = np.clip((light - 0.06) / 0.94, 0, 1)[:, None]
-    dark, step = _TONES
-    side = front.astype(np.intp)
-    return dark[side] + step[side] * bright
+    direct = (np.maximum(facing, 0) * sun + 0.16 * np.maximum(-facing, 0))[:, None]
+    dome = (sky * (0.9 + 0.1 * normals[:, 1]))[:, None]
+    diffuse = dome / (1 - BOUNCE * (1 - dome))
+    light = SUN_COLOUR * direct + SKY_COLOUR * diffuse
+    paper = _PAPERS[front.astype(np.intp)] if colour is None else colour
+    return paper * np.sqrt(light / (1 + 0.06 * light))
 
 
-_PAPERS = np.stack([rgb(BACK_OF_PAPER), rgb(PAPER)])
-_TONES = ((_PAPERS * rgb(SHADE)).astype(np.float32), (_PAPERS * (1 - rgb(SHADE))).astype(np.float32))
+SUN_COLOUR = np.array([0.70, 0.665, 0.59], np.float32)
+SKY_COLOUR = np.array([0.40, 0.415, 0.43], np.float32)
+BOUNCE = np.array([0.62, 0.56, 0.47], np.float32)  # of sky light that other folds throw back
+_PAPERS = np.stack([rgb(BACK_OF_PAPER), rgb(PAPER)]).astype(np.float32)
 
 
 def occlusion(depth: np.ndarray, normals: np.ndarray, radius: float, directions: int = 8,

@@ -21,8 +21,8 @@ CORNER, ZIGZAG = np.radians(14), np.radians(1)
 class Smoother:
     """Makes shapes of polylines and remembers the largest `deviation` in mm between the two.
 
-    Corners of more than 14 degrees stay corners, and so do zigzags; what is straight within the tolerance becomes a line. Stretches that no smooth curve follows within the tolerance stay
-    polylines; `kept` counts them.
+    Corners of more than 14 degrees stay corners, and so do zigzags; what is straight within the tolerance becomes a line.
+    Stretches that no smooth curve follows within the tolerance stay polylines; `kept` counts them.
     """
 
     kind: Curves = "polyline"

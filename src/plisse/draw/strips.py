@@ -36,7 +36,8 @@ def write_strips_picture(arrangement: Arrangement, path: str | Path, *, surface:
     triangles, normals, tints = _bodies(arrangement, surface)
     scale, corner = _fitted(camera, triangles)
     picture = render_triangles(triangles, normals, camera, scale, RIM, tints)
-    figure = Figure(figsize=(SIZE[0] / DOTS_PER_INCH, SIZE[1] / DOTS_PER_INCH), dpi=DOTS_PER_INCH, facecolor=colours.BACKGROUND)
+    inches = SIZE[0] / DOTS_PER_INCH, SIZE[1] / DOTS_PER_INCH
+    figure = Figure(figsize=inches, dpi=DOTS_PER_INCH, facecolor=colours.BACKGROUND)
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set_axis_off()
     axes.set(xlim=(0, SIZE[0]), ylim=(0, SIZE[1]))
@@ -49,8 +50,8 @@ def write_strips_picture(arrangement: Arrangement, path: str | Path, *, surface:
             for part in picture.visible(strip.row(across))]
     draw_lines(axes, rims, colours.EDGE, 0.3, 0.7, 3)
     axes.text(MARGIN, 66, title, fontsize=11, color=colours.INK, va="center", parse_math=False)
-    axes.text(SIZE[0] - MARGIN, 66, "   ·   ".join(_facts(arrangement, units)), fontsize=7, color=colours.CAPTION, va="center",
-              ha="right")
+    axes.text(SIZE[0] - MARGIN, 66, "   ·   ".join(_facts(arrangement, units)), fontsize=7, color=colours.CAPTION,
+              va="center", ha="right")
     FigureCanvasAgg(figure).print_png(str(path), metadata={"Software": None}, pil_kwargs={"compress_level": 4})
 
 

@@ -57,7 +57,8 @@ def _packed(outlines: list, bed: Bed) -> list[Placement] | None:
             return None
         angles = best + np.linspace(0, 2 * np.pi, TURNS, endpoint=False)
         fitting = angles[extents(get_coordinates(shape), angles)[:, 1] < (bed.height + bed.spacing) * (1 - 1e-4)]
-        items.append(spyrrow.Item(str(k), list(map(tuple, get_coordinates(shape).tolist())), 1, np.degrees(fitting).tolist()))
+        corners = [tuple(point) for point in get_coordinates(shape).tolist()]
+        items.append(spyrrow.Item(str(k), corners, 1, np.degrees(fitting).tolist()))
     strip = spyrrow.StripPackingInstance("sheet", bed.height + bed.spacing, items)
     found = strip.solve(spyrrow.StripPackingConfig(total_computation_time=SECONDS, num_workers=1, seed=0))
     if found.width > bed.width + bed.spacing:

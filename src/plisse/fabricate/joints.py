@@ -52,7 +52,8 @@ def joints_between(paper: Paper, piece: np.ndarray) -> tuple[Joint, ...]:
         first, second, crease, closes = rows[0, :4].tolist()
         for chain in _chains(rows[:, 4:]):
             breaks = _breaks(paper.points[chain[:, 0]]) if crease else np.arange(len(chain))
-            out.append(Joint(letters(len(out)), (first, second), chain[:, 0], chain[:, 1], breaks, bool(crease), bool(closes)))
+            out.append(Joint(letters(len(out)), (first, second), chain[:, 0], chain[:, 1], breaks,
+                             on_crease=bool(crease), closes=bool(closes)))
     return tuple(out)
 
 

@@ -1,6 +1,7 @@
 """Numbers on pieces: at every cut edge on both sides, and one for the piece; they touch neither lines nor each other."""
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
@@ -13,6 +14,7 @@ __all__ = ["CHARACTER", "Label", "labels_on"]
 CHARACTER = 0.95
 EDGE_HEIGHTS = (2.6, 2.2, 1.8, 1.5, 1.2, 1.0, 0.8, 0.65, 0.5)
 PIECE_HEIGHTS = (8.0, 6.5, 5.0, 4.0, 3.2, 2.6, 2.1, 1.7, 1.4, 1.1, 0.9, 0.7, 0.5)
+AWAY, SHARES = (0.7, 1.4, 2.4, 4.0), (0.5, 0.35, 0.65, 0.2, 0.8)
 CLEAR = 0.35
 CANDIDATES = 600
 STEEPEST = np.radians(105)
@@ -39,7 +41,8 @@ class Label:
         return np.array(self.centre) + np.array([-along - up, along - up, along + up, -along + up])
 
 
-def labels_on(paper: Paper, piece: Piece, placement: Placement, joints: tuple[Joint, ...], lines: list[np.ndarray]) -> list[Label]:
+def labels_on(paper: Paper, piece: Piece, placement: Placement, joints: tuple[Joint, ...],
+              lines: list[np.ndarray]) -> list[Label]:
     """Labels of a piece where it lies on its sheet; `lines` (N, 2) are the folds and ticks on it, there too."""
     import shapely
 
@@ -48,12 +51,12 @@ def labels_on(paper: Paper, piece: Piece, placement: Placement, joints: tuple[Jo
     obstacles = shapely.union_all([outline.boundary, *(shapely.LineString(line) for line in lines)])
     shapely.prepare(obstacles)
     shapely.prepare(outline)
-    board = _Board(outline, obstacles)
-    for joint in joints:
-        for side in (0, 1):
-            if joint.pieces[side] == piece.number - 1:
-                for words, path in zip(joint.labels, joint.edges(side), strict=True):
-                    board.first(_beside(words, points[path], side, joint.on_crease))
+    board, middles = _Board(outline, obstacles), _middles(paper, piece, points)
+    edges = [(words, path, _along if joint.on_crease else _into)
+             for joint in joints for side in (0, 1) if joint.pieces[side] == piece.number - 1
+             for words, path in zip(joint.labels, joint.edges(side), strict=True)]
+    for words, path, beside in sorted(edges, key=lambda edge: _length(points[edge[1]])[-1]):  # short ones have less choice
+        board.first(beside(words, points[path], middles[frozenset(path[:2].tolist())]))
     _name(board, paper, piece, points)
     return board.labels
 
@@ -65,8 +68,8 @@ class _Board:
         self.labels: list[Label] = []
         self._outline, self._obstacles, self._boxes = outline, obstacles, []
 
-    def first(self, wishes: list[Label]) -> bool:
-        """Put down the first wish that is clear; or else the last, which is the smallest, and say so."""
+    def first(self, wishes: list[Label]) -> None:
+        """Put down the first wish that is clear, or else the last, which is the smallest."""
         import shapely
 
         boxes = shapely.polygons([wish.corners for wish in wishes])
@@ -77,7 +80,6 @@ class _Board:
         chosen = int(np.argmax(clear)) if clear.any() else len(wishes) - 1
         self.labels.append(wishes[chosen])
         self._boxes.append(grown[chosen])
-        return bool(clear.any())
 
     def room(self, centres: np.ndarray) -> np.ndarray:
         """Distance (C,) of places from the nearest line."""
@@ -86,19 +88,41 @@ class _Board:
         return shapely.distance(self._obstacles, shapely.points(centres))
 
 
-def _beside(words: str, edge: np.ndarray, side: int, along: bool) -> list[Label]:
-    """Wishes for a label beside an edge (N, 2), large ones first: running into the strip, or along a crease."""
-    chord = edge[-1] - edge[0]
-    direction = chord / np.hypot(*chord)
-    inwards = np.array([-direction[1], direction[0]]) * (1 if side == 0 else -1)
-    middle = edge[len(edge) // 2] if along and len(edge) > 2 else edge.mean(axis=0) if len(edge) == 2 else edge[len(edge) // 2]
-    angle = _upright(direction if along else inwards)
-    wishes = []
-    for height in EDGE_HEIGHTS:
-        depth = height if along else CHARACTER * height * len(words)
-        for away in (0.7, 1.4, 2.4):
-            wishes.append(Label(words, tuple((middle + inwards * (away + depth / 2)).tolist()), height, angle, "edge"))
+def _middles(paper: Paper, piece: Piece, points: np.ndarray) -> dict[frozenset[int], np.ndarray]:
+    """For every edge on the rim of a piece the middle of the other corners of its face."""
+    ends, number = paper.rim(piece.faces)
+    faces = paper.topology.edges.faces[number]
+    own = np.where(piece.faces[faces[:, 0]], faces[:, 0], faces[:, 1])
+    return {frozenset(pair): points[np.setdiff1d(paper.topology.faces[face], pair)].mean(axis=0)
+            for pair, face in zip(ends.tolist(), own.tolist(), strict=True)}
+
+
+def _into(words: str, edge: np.ndarray, opposite: np.ndarray) -> list[Label]:
+    """Wishes for a label that runs from an edge (2, 2) into its strip, large ones first."""
+    middle = edge.mean(axis=0)
+    inwards = (opposite - middle) / np.hypot(*(opposite - middle))
+    return [Label(words, tuple((middle + inwards * (away + CHARACTER * height * len(words) / 2)).tolist()), height,
+                  _upright(inwards), "edge") for height in EDGE_HEIGHTS for away in AWAY]
+
+
+def _along(words: str, edge: np.ndarray, opposite: np.ndarray) -> list[Label]:
+    """Wishes for a label that runs beside an edge (N, 2) of several vertices, large ones first and near its middle."""
+    length, wishes = _length(edge), []
+    short = [height for height in EDGE_HEIGHTS if CHARACTER * height * len(words) <= length[-1]] or EDGE_HEIGHTS[-1:]
+    for height, share, away in product(short, SHARES, AWAY[:2]):
+        place = np.array([np.interp(share * length[-1], length, coordinate) for coordinate in edge.T])
+        k = int(np.clip(np.searchsorted(length, share * length[-1]) - 1, 0, len(edge) - 2))
+        along = (edge[k + 1] - edge[k]) / (length[k + 1] - length[k])
+        inwards = np.array([-along[1], along[0]])
+        inwards = inwards * np.sign(inwards @ (opposite - edge[0]))
+        centre = place + inwards * (away + height / 2)
+        wishes.append(Label(words, tuple(centre.tolist()), height, _upright(along), "edge"))
     return wishes
+
+
+def _length(line: np.ndarray) -> np.ndarray:
+    """Length along a polyline (N, 2) at every vertex."""
+    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
 
 
 def _name(board: _Board, paper: Paper, piece: Piece, points: np.ndarray) -> None:

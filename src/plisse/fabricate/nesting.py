@@ -43,7 +43,8 @@ class Bed:
     @property
     def raster(self) -> tuple[int, int]:
         """Rows and columns of the raster with its border, in numbers that transform fast."""
-        rows, columns = (next_fast_len(int(side / self.cell) + 2 * self.border + 2, True) for side in (self.height, self.width))
+        rows, columns = (next_fast_len(int(side / self.cell) + 2 * self.border + 2, True)
+                         for side in (self.height, self.width))
         return rows, columns
 
 

@@ -68,7 +68,8 @@ class Paper:
         if inside is not None:
             both = inside[first] & inside[second]
             first, second = first[both], second[both]
-        _, label = connected_components(coo_array((np.ones(len(first)), (first, second)), shape=(count,) * 2), directed=False)
+        links = coo_array((np.ones(len(first)), (first, second)), shape=(count,) * 2)
+        _, label = connected_components(links, directed=False)
         if inside is None:
             return label
         out = np.full(count, -1)

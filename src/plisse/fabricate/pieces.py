@@ -1,6 +1,7 @@
 """Pieces to cut out, and where on which sheet they lie."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -25,14 +26,14 @@ class Piece:
     faces: np.ndarray
     area: float
     tabs: tuple[Tab, ...]
-    outline: object
+    outline: Any
 
     @property
     def rings(self) -> tuple[np.ndarray, ...]:
         """Closed lines (N, 2) to cut, first point not repeated, the outer one first."""
         from shapely import get_coordinates
 
-        return tuple(get_coordinates(ring)[:-1] for ring in (self.outline.exterior, *self.outline.interiors))  # type: ignore[attr-defined]
+        return tuple(get_coordinates(ring)[:-1] for ring in (self.outline.exterior, *self.outline.interiors))
 
 
 @dataclass(frozen=True)

@@ -61,7 +61,8 @@ class Sheets:
         out = []
         bare = self.edge_count - sum(len(piece.tabs) for piece in self.pieces)
         if self.joint == "tabs" and bare:
-            out.append(f"edges without a flap, because there is no room for one: {bare} of {self.edge_count}; glue a strip behind")
+            out.append(f"edges without a flap, because there is no room for one: {bare} of {self.edge_count}; "
+                       "glue a strip behind them")
         closing = [joint.name for joint in self.joints if joint.closes]
         if closing:
             which = f"joint {closing[0]} closes" if len(closing) == 1 else f"joints {', '.join(closing)} close"
@@ -73,21 +74,22 @@ class Sheets:
         return [pair for pair in zip(self.pieces, self.placements, strict=True) if pair[1].sheet == number]
 
 
-def sheets(structure: PleatedStructure, *, material: tuple[float, float] = (600.0, 300.0), units: str = "mm", scale: float = 1.0,
-           kerf: float = 0.0, joint: JointKind = "tabs", tab: float = 6.0, margin: float = 5.0, spacing: float = 2.0,
-           nesting: Nesting = "quick") -> Sheets:
+def sheets(structure: PleatedStructure, *, material: tuple[float, float] = (600.0, 300.0), units: str = "mm",
+           scale: float = 1.0, kerf: float = 0.0, joint: JointKind = "tabs", tab: float = 6.0, margin: float = 5.0,
+           spacing: float = 2.0, nesting: Nesting = "quick") -> Sheets:
     """The development as pieces that overlap nowhere, nested on sheets of `material` (width, height) mm.
 
-    `scale` is in paper per model. Outlines are grown by half the `kerf`, pieces are `spacing` apart and `margin` from the edge of
-    the sheet; `tab` is the depth of glue flaps. All in mm. Raises PlisseError for numbers without sense, Infeasible where a face
-    does not fit the material or the kerf is wider than a piece, MissingExtra for dense nesting without spyrrow.
+    `scale` is in paper per model. Outlines are grown by half the `kerf`, pieces are `spacing` apart and `margin` from the
+    edge of the sheet; `tab` is the depth of glue flaps. All in mm. Raises PlisseError for numbers without sense,
+    InvalidStructure without a development, Infeasible where a face does not fit the material or the kerf is wider than a
+    piece, MissingExtra for dense nesting without spyrrow.
     """
     _require_sense(material, units, scale, kerf, joint, tab, margin, spacing, nesting)
     paper = paper_of(structure, MILLIMETRES[units] * scale)
     bed = Bed((margin, margin + FOOTER), material[0] - 2 * margin, material[1] - 2 * margin - FOOTER, spacing)
     if min(bed.width, bed.height) <= 0:
-        raise Infeasible(f"material of {material[0]:g} × {material[1]:g} mm is smaller than its margins of {margin:g} mm and a caption "
-                         f"of {FOOTER:g} mm; take larger material or a smaller margin")
+        raise Infeasible(f"material of {material[0]:g} × {material[1]:g} mm is smaller than its margins of {margin:g} mm "
+                         f"and a caption of {FOOTER:g} mm; take larger material or a smaller margin")
     flap = tab if joint == "tabs" else 0.0
     masks = split(paper, Room(bed.width - kerf, bed.height - kerf, flap, max(kerf, NARROWEST)))
     piece = np.empty(paper.topology.face_count, int)
@@ -103,8 +105,8 @@ def sheets(structure: PleatedStructure, *, material: tuple[float, float] = (600.
     return Sheets(paper, pieces, joints, tuple(placements), material, margin, kerf, joint)
 
 
-def _require_sense(material: tuple[float, float], units: str, scale: float, kerf: float, joint: str, tab: float, margin: float,
-                   spacing: float, nesting: str) -> None:
+def _require_sense(material: tuple[float, float], units: str, scale: float, kerf: float, joint: str, tab: float,
+                   margin: float, spacing: float, nesting: str) -> None:
     positive = {"material width": material[0], "material height": material[1], "scale": scale, "tab": tab}
     for name, value in positive.items():
         if not 0 < value < np.inf:
@@ -112,7 +114,8 @@ def _require_sense(material: tuple[float, float], units: str, scale: float, kerf
     for name, value in {"kerf": kerf, "margin": margin, "spacing": spacing}.items():
         if not 0 <= value < np.inf:
             raise PlisseError(f"{name} is {value:g}; give a number from 0")
-    words = {"units": (units, tuple(MILLIMETRES)), "joint": (joint, get_args(JointKind)), "nesting": (nesting, get_args(Nesting))}
+    words = {"units": (units, tuple(MILLIMETRES)), "joint": (joint, get_args(JointKind)),
+             "nesting": (nesting, get_args(Nesting))}
     for name, (word, known) in words.items():
         if word not in known:
             raise PlisseError(f"{name} {word!r} is unknown; give {' or '.join(known)}")

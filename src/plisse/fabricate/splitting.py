@@ -37,13 +37,14 @@ def split(paper: Paper, room: Room) -> list[np.ndarray]:
     """
     whole = np.ones(paper.topology.face_count, bool)
     if not paper.face_areas.min() > 0:
-        raise Infeasible(f"face {int(np.argmin(paper.face_areas))} is folded over in the development, so it cannot be cut out; "
-                         "make the structure regular first")
+        raise Infeasible(f"face {int(np.argmin(paper.face_areas))} is folded over in the development, so it cannot be cut "
+                         "out; make the structure regular first")
     _require_fitting_faces(paper, room)
     least = float(paper.face_areas.sum()) / (room.width * room.height)
     if least > MOST:
-        raise Infeasible(f"the development would fill at least {least:.0f} sheets with {room.width:.1f} × {room.height:.1f} mm "
-                         f"between their margins (limit {MOST}); take larger material or a smaller scale")
+        raise Infeasible(f"the development would fill at least {least:.0f} sheets with {room.width:.1f} × "
+                         f"{room.height:.1f} mm between their margins (limit {MOST}); take larger material or a "
+                         "smaller scale")
     pieces = [piece for part in _components(paper, whole) for piece in _split(paper, room, part)]
     return sorted(pieces, key=lambda piece: int(np.argmax(piece)))
 

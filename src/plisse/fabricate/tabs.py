@@ -1,6 +1,7 @@
 """Glue flaps: trapezoids beyond one side of every cut edge, where there is room for them."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -42,13 +43,13 @@ def tabs_for(paper: Paper, polygons: list, joints: tuple[Joint, ...], depth: flo
     return tuple(out)
 
 
-def _side(paper: Paper, polygons: list, taken: list[list], joint: Joint, side: int, depth: float) -> list[tuple[Tab, object]]:
+def _side(paper: Paper, polygons: list, taken: list[list], joint: Joint, side: int, depth: float) -> list[tuple[Tab, Any]]:
     """Flaps with their polygons on one side of a joint, as large as there is room."""
     import shapely
 
     number = joint.pieces[side]
     shapely.prepare(polygons[number])
-    found: list[tuple[Tab, object]] = []
+    found: list[tuple[Tab, Any]] = []
     for label, path in zip(joint.labels, joint.edges(side), strict=True):
         for share in SMALLER:
             base = paper.points[path]
@@ -56,7 +57,8 @@ def _side(paper: Paper, polygons: list, taken: list[list], joint: Joint, side: i
             polygon = shapely.Polygon(points)
             beyond = polygon.buffer(-2 * OVERLAP, join_style="mitre")
             others = [*taken[number], *(other for _, other in found)]
-            if polygon.is_valid and not beyond.intersects(polygons[number]) and not shapely.intersects(polygon, others).any():
+            free = not beyond.intersects(polygons[number]) and not shapely.intersects(polygon, others).any()
+            if free and polygon.is_valid:
                 found.append((Tab(label, number, points), polygon))
                 break
     return found

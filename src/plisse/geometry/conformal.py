@@ -47,8 +47,8 @@ def flattened_sheet(mesh: ReferenceMesh) -> np.ndarray:
 def flattened_tube(mesh: ReferenceMesh) -> tuple[np.ndarray, float]:
     """Places (V, 2) of the vertices of a tube rolled out, u from 0 to the period around it, v up from the longer rim.
 
-    The period comes second. v is harmonic and constant along the two rims, u conjugate to it; area and orientation are those of the mesh,
-    which must be an annulus.
+    The period comes second. v is harmonic and constant along the two rims, u conjugate to it; area and orientation are
+    those of the mesh, which must be an annulus.
     """
     slopes, matrix = gradients(mesh), _cotangents(mesh, gradients(mesh))
     low, high = mesh.boundary_loops

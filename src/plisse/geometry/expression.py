@@ -9,10 +9,10 @@ import numpy as np
 
 from plisse.errors import InvalidDesign
 
-__all__ = ["Jet", "height_expression"]
+__all__ = ["Jet", "checked_formula", "height_expression", "jet_of"]
 
 MAX_LENGTH, MAX_NODES, MAX_DEPTH = 1000, 300, 60
-ALLOWED = "numbers, x, y, pi, + - * / **, sin, cos, tan, exp, log, sqrt and abs"
+ALLOWED = "numbers, {names}, pi, + - * / **, {functions} and {last}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,85 +98,102 @@ def height_expression(text: str) -> Callable[[np.ndarray, np.ndarray], np.ndarra
 
     Raises InvalidDesign, naming what is not allowed, for anything but a formula of bounded size.
     """
-    tree = _parsed(text)
-    _check(tree, text)
+    tree = checked_formula(text)
 
     def heights(x: np.ndarray, y: np.ndarray) -> np.ndarray:
         x, y = (np.asarray(a, dtype=float).ravel() for a in np.broadcast_arrays(x, y))
         with np.errstate(all="ignore"):
-            part = _value(tree, x, y).part
+            part = jet_of(tree, {"x": _seed(x, 1), "y": _seed(y, 2)}).part
         return np.where(np.isfinite(part).all(axis=0), part, np.nan)
 
     return heights
 
 
-def _parsed(text: str) -> ast.expr:
+def checked_formula(text: str, names: tuple[str, ...] = ("x", "y"), what: str = "the height",
+                    functions: tuple[str, ...] = tuple(FUNCTIONS)) -> ast.expr:
+    """The syntax tree of a formula in `names` that uses these `functions`; `jet_of` gives its values.
+
+    Raises InvalidDesign, naming what is not allowed, for anything but a formula of bounded size.
+    """
+    tree = _parsed(text, names, what)
+    _check(tree, text, names, what, functions)
+    return tree
+
+
+def jet_of(tree: ast.expr, seeds: dict[str, Jet]) -> Jet:
+    """Value and derivatives of a checked formula where its names have the values `seeds`, real or complex."""
+    match tree:
+        case ast.Constant(value=int() | float() as value):
+            return _constant(value, seeds)
+        case ast.Name(id=name):
+            return _constant(np.pi, seeds) if name == "pi" else seeds[name]
+        case ast.UnaryOp(op=op, operand=operand):
+            inner = jet_of(operand, seeds)
+            return Jet(-inner.part) if isinstance(op, ast.USub) else inner
+        case ast.BinOp(left=left, op=op, right=right):
+            return OPERATORS[type(op)](jet_of(left, seeds), jet_of(right, seeds))
+        case ast.Call(func=ast.Name(id=name), args=[argument]):
+            return FUNCTIONS[name](jet_of(argument, seeds))
+    raise AssertionError("checked before")
+
+
+def _parsed(text: str, names: tuple[str, ...], what: str) -> ast.expr:
     if not isinstance(text, str) or not text.strip():
-        raise InvalidDesign("the height is empty; give an expression in x and y, for instance \"0.1 * x * y\"")
+        example = " * ".join(["0.1", *names] if len(names) > 1 else [names[0], names[0]])
+        raise InvalidDesign(f"{what} is empty; give an expression in {' and '.join(names)}, for instance \"{example}\"")
     if len(text) > MAX_LENGTH:
-        raise InvalidDesign(f"the height has {len(text)} characters; at most {MAX_LENGTH} are read")
+        raise InvalidDesign(f"{what} has {len(text)} characters; at most {MAX_LENGTH} are read")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return ast.parse(text.strip(), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         reason = error.msg if isinstance(error, SyntaxError) else "too deeply nested or not text"
-        raise InvalidDesign(f"the height {_short(text)} is no expression in x and y ({reason})") from None
+        raise InvalidDesign(f"{what} {_short(text)} is no expression in {' and '.join(names)} ({reason})") from None
 
 
-def _check(tree: ast.expr, text: str) -> None:
+def _check(tree: ast.expr, text: str, names: tuple[str, ...], what: str, functions: tuple[str, ...]) -> None:
     """Walk the tree without recursion and refuse everything that is not on the list."""
     stack, nodes = [(tree, 1)], 0
     while stack:
         node, depth = stack.pop()
         nodes += 1
         if nodes > MAX_NODES or depth > MAX_DEPTH:
-            raise InvalidDesign(f"the height {_short(text)} is too long or too deeply nested")
-        children = _children(node)
+            raise InvalidDesign(f"{what} {_short(text)} is too long or too deeply nested")
+        children = _children(node, names, functions)
         if children is None:
             hint = "; powers are written **" if isinstance(getattr(node, "op", None), ast.BitXor) else ""
             part = ast.get_source_segment(text.strip(), node) or type(node).__name__
-            raise InvalidDesign(f"the height {_short(text)} contains {_short(part)}; allowed are {ALLOWED}{hint}")
+            allowed = ALLOWED.format(names=", ".join(names), functions=", ".join(functions[:-1]), last=functions[-1])
+            raise InvalidDesign(f"{what} {_short(text)} contains {_short(part)}; allowed are {allowed}{hint}")
         stack += [(child, depth + 1) for child in children]
 
 
-def _children(node: ast.expr) -> list[ast.expr] | None:
+def _children(node: ast.expr, names: tuple[str, ...], functions: tuple[str, ...]) -> list[ast.expr] | None:
     """What an allowed node is made of, None for one that is not allowed."""
     match node:
         case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
             return [] if abs(value) <= 1e12 else None
-        case ast.Name(id="x" | "y" | "pi"):
+        case ast.Name(id=name) if name == "pi" or name in names:
             return []
         case ast.UnaryOp(op=ast.UAdd() | ast.USub(), operand=operand):
             return [operand]
         case ast.BinOp(left=left, op=op, right=right) if type(op) in OPERATORS:
             return [left, right]
-        case ast.Call(func=ast.Name(id=name), args=[argument], keywords=[]) if name in FUNCTIONS:
+        case ast.Call(func=ast.Name(id=name), args=[argument], keywords=[]) if name in functions:
             return [argument]
     return None
 
 
-def _value(node: ast.expr, x: np.ndarray, y: np.ndarray) -> Jet:
-    match node:
-        case ast.Constant(value=int() | float() as value):
-            return _seed(np.full_like(x, float(value)))
-        case ast.Name(id=name):
-            return _seed(np.full_like(x, np.pi)) if name == "pi" else _seed({"x": x, "y": y}[name], name)
-        case ast.UnaryOp(op=op, operand=operand):
-            inner = _value(operand, x, y)
-            return Jet(-inner.part) if isinstance(op, ast.USub) else inner
-        case ast.BinOp(left=left, op=op, right=right):
-            return OPERATORS[type(op)](_value(left, x, y), _value(right, x, y))
-        case ast.Call(func=ast.Name(id=name), args=[argument]):
-            return FUNCTIONS[name](_value(argument, x, y))
-    raise AssertionError("checked before")
-
-
-def _seed(value: np.ndarray, name: str = "") -> Jet:
+def _seed(value: np.ndarray, slot: int) -> Jet:
     part = np.zeros((6, len(value)))
+    part[0], part[slot] = value, 1
+    return Jet(part)
+
+
+def _constant(value: float, seeds: dict[str, Jet]) -> Jet:
+    part = np.zeros_like(next(iter(seeds.values())).part)
     part[0] = value
-    if name:
-        part[1 if name == "x" else 2] = 1
     return Jet(part)
 
 

@@ -56,9 +56,12 @@ class GraphSurface:
         plane = self.to_plane(points)[:, :2]
         height, slopes, hessians = self.heights(plane)
         normals, bending = monge(slopes, hessians)
-        inside = self._outline.inside(np.concatenate([plane, np.zeros((len(plane), 1))], axis=1))
         return SurfacePoints(self.to_space(np.concatenate([plane, height[:, None]], axis=1)), normals @ self.frame,
-                             self.frame.T @ bending @ self.frame, inside)
+                             self.frame.T @ bending @ self.frame, self.is_over(plane))
+
+    def is_over(self, plane: np.ndarray) -> np.ndarray:
+        """Mask (N,) of the points (N, 2) of the mean plane that lie under the mesh."""
+        return self._outline.inside(np.concatenate([plane, np.zeros((len(plane), 1))], axis=1))
 
     def at(self, places: np.ndarray) -> SurfacePoints:
         """The surface over points (N, 2) of the mean plane."""

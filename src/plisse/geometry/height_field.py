@@ -58,6 +58,10 @@ class HeightField:
             known &= (points[:, axis] >= low - slack) & (points[:, axis] <= high + slack)
         return SurfacePoints(np.stack([points[:, 0], points[:, 1], part[0]], axis=1), normals, bending, known)
 
+    def derivatives(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """z, zx, zy, zxx, zxy and zyy (6, N) at points (N,) each; nan where the expression is not defined."""
+        return self._heights(x, y)
+
     def mesh(self, cells: int = 40) -> ReferenceMesh:
         """Grid with `cells` cells along the longer side."""
         x, y, z = self._grid(cells)

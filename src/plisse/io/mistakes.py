@@ -96,7 +96,7 @@ def _hint(path: str, data: dict) -> str:
     struct = _struct_at(section, data)
     if struct is None:
         return ""
-    field = next((f for f in msgspec.structs.fields(struct) if f.name == (key or section)), None)
+    field = next((f for f in msgspec.structs.fields(struct) if f.name == key), None)
     return _description(msgspec.inspect.type_info(field.type)) if field else ""
 
 

@@ -13,7 +13,7 @@ from plisse.io.atomic import written
 from plisse.io.coordinates import checked_coordinates
 from plisse.io.labels import folding_evidence, labelled_topology
 from plisse.io.model import Model
-from plisse.io.welding import welded
+from plisse.io.welding import attached, used_only, welded
 from plisse.recipe import MILLIMETRES
 from plisse.structure.lines import Polyline, joined
 from plisse.structure.pleated import PleatedStructure
@@ -70,7 +70,9 @@ def load_obj(path: str | Path) -> Model:
                                "export one of them alone")
     vertices = checked_coordinates(np.array(found.vertices, dtype=float).reshape(-1, 3), path)
     vertices, (faces, creases, seams) = welded(vertices, found.faces, found.creases, found.seams)
+    creases = attached(vertices, faces, creases)
     _require_edges(creases + seams, faces, path)
+    vertices, (faces, creases, seams) = used_only(vertices, faces, creases, seams)
     evidence = _marked(creases) if creases else folding_evidence(vertices, faces)
     topology = labelled_topology(len(vertices), faces, evidence)
     edges = np.array([edge for line in seams for edge in pairwise(line)], np.int64)

@@ -15,7 +15,7 @@ from plisse.io.atomic import written
 from plisse.io.coordinates import checked_coordinates
 from plisse.io.labels import folding_evidence, labelled_topology
 from plisse.io.model import Model
-from plisse.io.welding import welded
+from plisse.io.welding import used_only, welded
 from plisse.structure.bands import Band, bands
 from plisse.structure.front import front_up
 from plisse.structure.pleated import PleatedStructure
@@ -166,6 +166,7 @@ def load_3dm(path: str | Path) -> Model:
     points = [mesh.Vertices.Point3dAt(k) for k in range(len(mesh.Vertices))]
     vertices = checked_coordinates(np.array([[p.X, p.Y, p.Z] for p in points]).reshape(-1, 3), path)
     vertices, (faces,) = welded(vertices, faces)
+    vertices, (faces,) = used_only(vertices, faces)
     topology = labelled_topology(len(vertices), faces, folding_evidence(vertices, faces))
     names = {getattr(rhino.UnitSystem, name): unit for unit, name in UNITS.items()}
     return Model(PleatedStructure(topology, vertices), names.get(model.Settings.ModelUnitSystem, "mm"))

@@ -38,5 +38,6 @@ def write_solids(solids: Sequence[StripSolid], path: str | Path, *, units: str =
     starts = np.cumsum([0, *(len(solid.vertices) for solid in solids[:-1])])
     triangles = np.concatenate([solid.triangles + start for solid, start in zip(solids, starts, strict=True)])
     vertices = np.concatenate([solid.vertices for solid in solids]) * MILLIMETRES[units]
+    data: bytes = trimesh.exchange.stl.export_stl(trimesh.Trimesh(vertices, triangles, process=False))
     with written(path) as aside:
-        aside.write_bytes(trimesh.Trimesh(vertices, triangles, process=False).export(file_type="stl"))
+        aside.write_bytes(data)

@@ -20,8 +20,8 @@ def check_surface_strips(design: SurfaceDesign) -> None:
             raise InvalidDesign(f"strips.{name} is missing; strips over a surface need it")
     for name in ("theta", "width", "amplitude", "creases"):
         if getattr(design.pattern, name) is not None:
-            raise InvalidDesign(f"pattern.{name} belongs to pleats, but this design has a strips section; give strips.theta, "
-                                "strips.spacing and strips.width instead")
+            raise InvalidDesign(f"pattern.{name} belongs to pleats, but this design has a strips section; give "
+                                "strips.theta, strips.spacing and strips.width instead")
     check_thickness(strips)
 
 

@@ -1,14 +1,16 @@
 """What the options of a surface section must be to each other: one sentence for every contradiction."""
 
+import math
+
 from plisse.errors import InvalidDesign
 from plisse.io.strips_consistency import check_surface_strips
-from plisse.recipe import Surface, SurfaceDesign
+from plisse.layout.positions import upright_amplitude
+from plisse.recipe import Surface, SurfaceDesign, SurfacePattern
 
 __all__ = ["check_surface_design"]
 
 KINDS = ("file", "height", "radius", "torus")
 WAYS = ("guide", "guide_file", "guide_section", "guide_boundary", "point", "centre")
-UPRIGHT = 45.0  # degrees from which pleats overhang
 
 
 def check_surface_design(design: SurfaceDesign) -> SurfaceDesign:
@@ -77,14 +79,24 @@ def _check_guided(design: SurfaceDesign) -> None:
                                 f"surface.{way}; edit the file itself, or remove one of them")
     if surface.seams is not None:
         raise InvalidDesign(f"surface.seams cut a whole surface apart, not a family along surface.{way}; remove one of them")
-    if surface.overhang is False and pattern.theta >= UPRIGHT:
-        raise InvalidDesign(f"surface.overhang = false, but pattern.theta is {pattern.theta:g} and pleats overhang from 45 "
-                            "degrees on; give a smaller theta or allow it")
+    if surface.overhang is False:
+        _check_upright(pattern)
     if surface.boundary and surface.beyond:
         raise InvalidDesign("surface.boundary keeps creases inside the boundary, surface.beyond lets them leave it; give "
                             "one of them")
     if surface.crop == "outline":
         _check_outline(design)
+
+
+def _check_upright(pattern: SurfacePattern) -> None:
+    assert pattern.theta is not None
+    assert pattern.width is not None
+    assert pattern.amplitude is not None
+    limit = upright_amplitude(math.radians(pattern.theta), pattern.width)
+    if pattern.amplitude >= limit:
+        least = f"at this width and theta amplitudes from {limit:.3g} on overhang" if limit > 0 else \
+            f"pattern.theta is {pattern.theta:g}, and pleats overhang from 45 degrees on"
+        raise InvalidDesign(f"surface.overhang = false, but {least}; give a smaller theta or amplitude, or allow it")
 
 
 def _check_outline(design: SurfaceDesign) -> None:
@@ -118,9 +130,9 @@ def _check_whole(design: SurfaceDesign) -> None:
         raise InvalidDesign("pattern.initial = \"normal\" needs surface.centre, pattern.width and pattern.amplitude")
     if pattern.initial == "normal" and surface.seams:
         raise InvalidDesign("pattern.initial = \"normal\" shows a failure in one piece; remove it or surface.seams")
-    if solve.principal:
-        raise InvalidDesign("solve.principal needs constant fold angles, hence creases of constant inclination at even "
-                            "distances, but over a whole surface inclinations are fitted; give a guide or a point")
+    if solve.principal and (pattern.samples is not None or pattern.initial == "normal"):
+        name = "pattern.samples" if pattern.samples is not None else "pattern.initial = \"normal\""
+        raise InvalidDesign(f"solve.principal does not go with {name} over a whole surface; remove one of them")
     if solve.method == "paper":
         raise InvalidDesign("solve.method = \"paper\" is for creases from a guide or a point; over a whole surface the "
                             "parts that cannot become exact have to be left out, which it cannot do")

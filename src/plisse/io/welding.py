@@ -1,10 +1,13 @@
-"""Welding meshes whose faces came apart on export: vertices in the same place become one."""
+"""Welding what came apart on export: faces to faces where vertices are the same, polylines to the mesh they run along."""
 
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
-__all__ = ["welded"]
+__all__ = ["attached", "used_only", "welded"]
+
+NEAR = 1e-6
 
 
 def welded(vertices: np.ndarray, faces: list[list[int]],
@@ -21,6 +24,30 @@ def welded(vertices: np.ndarray, faces: list[list[int]],
     places = vertices[np.sort(first)]
     renumbered = [[[number[v] for v in path] for path in paths] for paths in (faces, *others)]
     return (places, renumbered) if _pieces(renumbered[0], len(places)) < pieces else (vertices, [faces, *others])
+
+
+def attached(vertices: np.ndarray, faces: list[list[int]], lines: list[list[int]]) -> list[list[int]]:
+    """The polylines with vertices of their own replaced by those of faces in the same place, to 1e-6 of the whole size."""
+    used = np.unique(np.concatenate(faces))
+    loose = np.setdiff1d(np.concatenate(lines), used) if lines else used[:0]
+    if len(loose) == 0:
+        return lines
+    limit = NEAR * float(np.linalg.norm(np.ptp(vertices[used], axis=0)))
+    distance, nearest = cKDTree(vertices[used]).query(vertices[loose])
+    met = distance <= limit
+    stands_for = dict(zip(loose[met].tolist(), used[nearest[met]].tolist(), strict=True))
+    return [[stands_for.get(vertex, vertex) for vertex in line] for line in lines]
+
+
+def used_only(vertices: np.ndarray, faces: list[list[int]],
+              *others: list[list[int]]) -> tuple[np.ndarray, list[list[list[int]]]]:
+    """Vertices (V', 3) that faces use, in their order, and [faces, *others] renumbered; others run along faces."""
+    used = np.unique(np.concatenate(faces))
+    if len(used) == len(vertices):
+        return vertices, [faces, *others]
+    number = np.zeros(len(vertices), np.int64)
+    number[used] = np.arange(len(used))
+    return vertices[used], [[number[path].tolist() for path in paths] for paths in (faces, *others)]
 
 
 def _pieces(faces: list[list[int]], count: int) -> int:

@@ -18,8 +18,9 @@ NEWTON_STEPS = 5
 class Net:
     """Rows crossed with columns on a surface: `points`, `normals`, `outward` (n, m, 3), inclinations `theta` (n, m).
 
-    `gaps` (n−1, m) are the distances between rows along columns, n in a ring, whose last row the first one follows. The points are the reference of the structure: the
-    zigzag leaves them by the amplitude, the first crease `above` or below.
+    `gaps` (n−1, m) are the distances between rows along columns; in a ring, where the first row follows the last, (n, m).
+    The points are the reference of the structure: the zigzag leaves them by the amplitude, the first crease `above` or
+    below.
     """
 
     points: np.ndarray

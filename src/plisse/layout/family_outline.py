@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plisse.errors import Infeasible
+from plisse.errors import Infeasible, InvalidDesign
 from plisse.geometry.surface import Surface
 from plisse.geometry.vectors import norm
 from plisse.layout.coverage import AreaSamples, located
@@ -36,6 +36,9 @@ def outlined(family: Family, surface: Surface, area: AreaSamples, amplitude: flo
 
     With `inside` only quads within the boundary are kept. Raises Infeasible where hardly any quads are usable.
     """
+    if family.closed:
+        raise InvalidDesign("surface.crop = \"outline\" is for open families, and this one closes around the surface; "
+                            "remove it")
     count, ranges = len(family.curves), family.ranges
     best, window, start = 0, (0.0, 0.0), 0
     for row in sorted({count // 2, count // 4, (3 * count) // 4, int(np.argmax(np.ptp(ranges, axis=1)))}):

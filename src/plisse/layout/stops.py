@@ -15,6 +15,8 @@ class Stop(Enum):
     LENGTH = "reached the length asked for"
     CURLED_UP = "curled up"
     CLOSED = "closed on itself"
+    PARABOLIC = "reached a parabolic curve, beyond which the surface has no asymptotic directions"
+    SINGULARITY = "ran into a singularity, where asymptotic directions are not determined"
     LEFT_CHART = "left the chart: no surface could be found near the next point"
 
     def __str__(self) -> str:

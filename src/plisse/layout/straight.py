@@ -5,11 +5,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from plisse.geometry.mesh import ReferenceMesh
 from plisse.geometry.parametric import ParametricSurface
 from plisse.geometry.vectors import norm
+from plisse.layout.automatic import OVERHANG_LIMIT, Sizes, centres
 from plisse.layout.rows import RowGeometry, Rows, column_count, lifted
 
-__all__ = ["Straight", "StraightRows", "directions"]
+__all__ = ["Straight", "StraightRows", "directions", "straight_and_round"]
 
 PAD = 2.0  # widths by which rows go on beyond the rim
 SAMPLES = 100
@@ -104,6 +106,18 @@ def directions(surface: ParametricSurface) -> Iterator[Straight]:
     """Straight rows to try: along and across a sheet and in between; up a tube, steep ones first."""
     for degrees in TURNS if surface.period is None else SLANTS:
         yield Straight(float(np.radians(degrees)))
+
+
+def straight_and_round(mesh: ReferenceMesh, surface: ParametricSurface, sizes: Sizes,
+                       count: int) -> list[tuple[Straight | np.ndarray, Sizes]]:
+    """At most `count` ways to start: straight rows over a sheet, then centres; up and around a tube, of several sizes."""
+    straight = list(directions(surface))
+    if surface.period is None:
+        starts: list[Straight | np.ndarray] = [*straight, *centres(mesh, surface, count)]
+        return [(start, sizes) for start in starts[:count]]
+    return [(start, replace(sizes, width=sizes.width * size, amplitude=sizes.amplitude * size * height, limit=limit))
+            for size, height, limit in ((1.0, 1.0, sizes.limit), (1.0, 1.5, OVERHANG_LIMIT), (0.8, 1.5, OVERHANG_LIMIT))
+            for start in (*straight, Straight(0.0))][:count]
 
 
 def _reach(places: np.ndarray, direction: np.ndarray, pad: float) -> tuple[float, float]:

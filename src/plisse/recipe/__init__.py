@@ -13,5 +13,5 @@ from plisse.recipe.strips import Strips
 from plisse.recipe.surface import Pull, Section, Surface, SurfaceDesign, SurfacePattern
 
 __all__ = ["MILLIMETRES", "Arc", "ClosedForm", "Cones", "ConicCreases", "Curve", "Design", "Ellipse", "HelicalPleats",
-           "Helix", "March", "Miura", "Move", "Parallel", "Pattern", "Points", "Pull", "Section", "Solve", "Spline", "Strips",
-           "Surface", "SurfaceDesign", "SurfacePattern", "TorusKnot"]
+           "Helix", "March", "Miura", "Move", "Parallel", "Pattern", "Points", "Pull", "Section", "Solve", "Spline",
+           "Strips", "Surface", "SurfaceDesign", "SurfacePattern", "TorusKnot"]

@@ -25,7 +25,7 @@ from plisse.layout.automatic import (
 )
 from plisse.layout.coverage import AreaSamples, covered
 from plisse.layout.rows import ChartedSurface
-from plisse.layout.straight import Straight, directions
+from plisse.layout.straight import Straight, straight_and_round
 from plisse.measure.folds import crease_opening_angles
 from plisse.measure.inclination import crease_inclinations
 from plisse.measure.mid_surface import MidSurfaceDeviation, mid_surface_deviation
@@ -156,7 +156,7 @@ def _first(task: _Task, sizes: Sizes, centre: np.ndarray | None, count: int) -> 
     """Layouts around one centre or many; for an annulus, rows between its boundaries, of several widths."""
     jobs: list[tuple[Straight | np.ndarray | None, Sizes]] = []
     if centre is None and isinstance(task.surface, ParametricSurface):
-        jobs += [*starts_on_sheet_or_tube(task.mesh, task.surface, sizes, count)]
+        jobs += straight_and_round(task.mesh, task.surface, sizes, count)
     elif centre is None and task.is_annulus:
         jobs += [(None, replace(sizes, width=sizes.width * size, amplitude=sizes.amplitude * size * height,
                                curvature=weight, limit=limit))
@@ -168,19 +168,6 @@ def _first(task: _Task, sizes: Sizes, centre: np.ndarray | None, count: int) -> 
         jobs += [(centre, replace(sizes, curvature=weight)) for weight in (0.0, 1.0)]
     for k, (place, size) in enumerate(jobs):
         yield k / len(jobs), task.layout(place, size), SCAN, ()
-
-
-def starts_on_sheet_or_tube(mesh: ReferenceMesh, surface: ParametricSurface, sizes: Sizes,
-                            count: int) -> Iterator[tuple[Straight | np.ndarray, Sizes]]:
-    """Straight rows, then circles for a sheet; for a tube rows up and around, of several sizes."""
-    straight = directions(surface)
-    if surface.period is None:
-        yield from ((start, sizes) for start in islice(chain(straight, centres(mesh, surface, count)), count))
-        return
-    starts = [*straight, Straight(0.0)]
-    for size, height, limit in ((1.0, 1.0, sizes.limit), (1.0, 1.5, OVERHANG_LIMIT), (0.8, 1.5, OVERHANG_LIMIT)):
-        for start in starts:
-            yield start, replace(sizes, width=sizes.width * size, amplitude=sizes.amplitude * size * height, limit=limit)
 
 
 def _finished(task: _Task, best: Candidate, tried: tuple[Candidate, ...]) -> WholeSurface:

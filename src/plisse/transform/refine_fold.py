@@ -111,8 +111,8 @@ def _fold(topology: Topology, number: int) -> _Fold:
         if (pair[1:, 0] != pair[:-1, 1]).any() or (crease.closed and pair[0, 0] != pair[-1, 1]):
             raise InvalidStructure(f"crease {number + 1} passes a vertex with more than two rulings; only plain folds can "
                                    "be replaced by three")
-    ends_of = [np.append(pair[:, 0], [] if crease.closed else pair[-1, 1]).astype(np.int64) for pair in (back, ahead)]
-    return _Fold(number, path, *ends_of, corners.face[beyond], crease.closed)
+    back_ends, ahead_ends = (pair[:, 0] if crease.closed else np.append(pair[:, 0], pair[-1, 1]) for pair in (back, ahead))
+    return _Fold(number, path, back_ends, ahead_ends, corners.face[beyond], crease.closed)
 
 
 def _neighbours(topology: Topology, faces: np.ndarray, ends: np.ndarray, forward: bool) -> np.ndarray:

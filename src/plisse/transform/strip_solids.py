@@ -27,7 +27,8 @@ def strip_solid(strip: RectifyingStrip, thickness: float) -> StripSolid:
     """The strip thickened by half of `thickness` to both sides of its faces.
 
     Both sides are made of planar quads parallel to those of the strip: planes moved by half the thickness meet in lines
-    parallel to the rulings. The narrow walls between them are slightly twisted. Raises Infeasible where the strip bends too sharply for the thickness.
+    parallel to the rulings. The narrow walls between them are slightly twisted. Raises Infeasible where the strip bends
+    too sharply for the thickness.
     """
     if not thickness > 0:
         raise Infeasible(f"a solid of thickness {thickness:g} is none; give a positive length")
@@ -47,7 +48,7 @@ def strip_solid(strip: RectifyingStrip, thickness: float) -> StripSolid:
 def _require_room(strip: RectifyingStrip, rows: list[np.ndarray]) -> None:
     """Raise Infeasible where an edge of the solid would turn round."""
     edges = unit(np.diff(strip.points, axis=0))
-    turned = np.array([(dot(np.diff(row, axis=0), edges) <= 0) for row in rows]).any(axis=0)
+    turned: np.ndarray = (dot(np.diff(np.stack(rows), axis=1), edges) <= 0).any(axis=0)
     if turned.any():
         percent = 100 * (int(np.argmax(turned)) + 0.5) / len(turned)
         raise Infeasible(f"a strip bends too sharply near {percent:.0f} % of its length for this thickness; give less, or "

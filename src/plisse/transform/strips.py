@@ -152,9 +152,10 @@ def _carried(points: np.ndarray, closed: bool, reference: np.ndarray | None) -> 
 
 def _continued(rulings: np.ndarray, edges: np.ndarray, binormals: np.ndarray, normals: np.ndarray,
                closed: bool) -> np.ndarray:
-    """Rulings (n, 3), those between parallel planes in the mean direction of their neighbours: any direction is exact there."""
-    turn = norm(normals - np.roll(normals, 1, axis=0)) if closed else np.concatenate([[1.0], norm(np.diff(normals, axis=0)),
-                                                                                     [1.0]])
+    """Rulings (n, 3), those between parallel planes interpolated from their neighbours: any direction is exact there."""
+    turn = norm(normals - np.roll(normals, 1, axis=0))
+    if not closed:
+        turn = np.concatenate([[1.0], turn[1:], [1.0]])
     lost = (turn < COPLANAR) | ~np.isfinite(rulings).all(axis=1)
     if not lost.any():
         return rulings
@@ -172,10 +173,14 @@ def _steady_binormals(points: np.ndarray, closed: bool) -> np.ndarray:
     vectors = curvature_vectors(points, closed)
     if not closed:
         vectors = np.concatenate([vectors[1:2], vectors[1:-1], vectors[-2:-1]])
+    bent = norm(vectors) > STRAIGHT / norm(np.ptp(points, axis=0))
+    if not bent.any():
+        raise Infeasible("the curve is straight, and along a straight line nothing tells the plane of a strip")
+    # where the curve is straight for a moment the last bend before it counts
+    last = np.maximum.accumulate(np.where(bent, np.arange(len(vectors)), int(np.argmax(bent))))
+    vectors = vectors[last]
     same = np.where(dot(vectors[1:], vectors[:-1]) < 0, -1.0, 1.0)
     steady = np.concatenate([[1.0], np.cumprod(same)])[:, None] * vectors
-    if not (norm(steady) > STRAIGHT / norm(np.ptp(points, axis=0))).any():
-        raise Infeasible("the curve is straight, and along a straight line nothing tells the plane of a strip")
     before, after = np.roll(steady, 1, axis=0), np.roll(steady, -1, axis=0)
     if closed:
         before[0] *= np.where(dot(before[0], steady[0]) < 0, -1.0, 1.0)

@@ -5,8 +5,8 @@ import pytest
 import shapely
 
 from plisse.draw.pages import printed_pages
-from plisse.draw.sheets import sheet_drawings
 from plisse.draw.shapes import Arc, Line, Spline
+from plisse.draw.sheets import sheet_drawings
 from plisse.draw.smoothing import Smoother
 from plisse.draw.strokes import PRINT
 from plisse.fabricate import sheets
@@ -17,7 +17,8 @@ def text_box(text):
     along, up = np.array([np.cos(text.angle), np.sin(text.angle)]), np.array([-np.sin(text.angle), np.cos(text.angle)])
     width = 0.95 * text.height * len(text.words)
     start = np.array(text.at) - along * width * {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor]
-    return shapely.Polygon([start, start + width * along, start + width * along + text.height * up, start + text.height * up])
+    end, up = start + width * along, text.height * up
+    return shapely.Polygon([start, end, end + up, start + up])
 
 
 @pytest.fixture
@@ -67,7 +68,8 @@ def test_smooth_curves_stay_within_the_tolerance_and_say_how_far_they_go(kind, t
     outline = np.concatenate([bend, 0.5 * bend[::-1]])
     smoother = Smoother(kind, tolerance)
     shapes = smoother.shapes(outline, closed=True)
-    assert {Spline if kind == "spline" else Arc} <= set(map(type, shapes)) and sum(type(shape) is Line for shape in shapes) == 2
+    assert (Spline if kind == "spline" else Arc) in set(map(type, shapes))
+    assert sum(type(shape) is Line for shape in shapes) == 2
     exact = shapely.LinearRing(outline)
     far = max(shapely.distance(exact, shapely.points(shape.path)).max() for shape in shapes)
     assert far <= tolerance * 1.01 + 1e-3  # the smooth curve bulges between the vertices of the polyline by up to 1e-3
@@ -101,6 +103,11 @@ def test_pages_show_every_line_of_a_large_sheet_at_full_size(cones):
     assert names <= {text.words for page in pages for text in page.layer("text").texts}
 
 
-def test_sheets_no_larger_than_the_paper_are_pages_as_they_are(plan):
-    drawings = sheet_drawings(plan)
-    assert printed_pages(drawings, (180.0, 200.0)) == drawings
+def test_sheets_no_larger_than_the_paper_lie_whole_in_the_middle_of_a_page(plan):
+    drawings = sheet_drawings(plan, smoother=Smoother("arc", 0.3))
+    pages = printed_pages(drawings, (210.0, 297.0))
+    assert [page.size for page in pages] == [(210.0, 297.0)] * len(drawings)
+    for page, drawing in zip(pages, drawings, strict=True):
+        shift = (np.array(page.size) - drawing.size) / 2
+        for layer, other in zip(page.layers, drawing.layers, strict=True):
+            assert all(np.abs(a.path - b.path - shift).max() < 1e-9 for a, b in zip(layer.lines, other.lines, strict=True))

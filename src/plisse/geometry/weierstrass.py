@@ -1,0 +1,91 @@
+"""Minimal surfaces from their Weierstrass data: X = Re ∫ (f (1 − g²)/2, i f (1 + g²)/2, f g) dz (§2.6).
+
+Their asymptotic curves are straight in the coordinate ∫ √(i f g′) dz, and a zero of g′ of order m is a singularity of
+index −m/2: what traced curves and located singularities are measured against.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from plisse.errors import InvalidDesign
+from plisse.geometry.chart import ChartPoints, in_rectangle
+from plisse.geometry.holomorphic import holomorphic
+
+__all__ = ["MinimalSurface"]
+
+PANELS, NODES = 8, 12
+CHECKED = 41  # places along each side where the data must be defined
+
+Holomorphic = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+@dataclass(frozen=True)
+class MinimalSurface:
+    """The minimal surface of meromorphic g and holomorphic f, expressions in z = x + iy over the rectangle x × y.
+
+    The middle of the rectangle lies in the origin. Raises InvalidDesign for expressions that cannot be read or are not
+    defined in the rectangle.
+    """
+
+    g: str
+    f: str
+    x: tuple[float, float] = (-1.0, 1.0)
+    y: tuple[float, float] = (-1.0, 1.0)
+
+    def __post_init__(self):
+        low, high = self.domain
+        u, v = np.meshgrid(np.linspace(low.real, high.real, CHECKED), np.linspace(low.imag, high.imag, CHECKED))
+        places = (u + 1j * v).ravel()
+        for name, function in (("g", self._g), ("f", self._f)):
+            if not (fine := np.isfinite(function(places)[0])).all():
+                where = places[np.argmin(fine)]
+                raise InvalidDesign(f"surface.weierstrass.{name} is not defined at z = {where.real:.4g}{where.imag:+.4g}i; "
+                                    "give a function without poles there, or another range of surface.x and surface.y")
+
+    @property
+    def domain(self) -> tuple[complex, complex]:
+        """Corners of the rectangle."""
+        return complex(self.x[0], self.y[0]), complex(self.x[1], self.y[1])
+
+    def at(self, places: np.ndarray) -> ChartPoints:
+        """The surface at places z (N,); positions by Gauss's rule along rays from the middle."""
+        (f, _), (g, derivative) = self._f(places), self._g(places)
+        tangent = _integrand(f, g)
+        partials = np.stack([tangent.real, -tangent.imag])
+        square = np.abs(g) ** 2
+        normals = np.stack([2 * g.real, 2 * g.imag, square - 1], axis=1) / (square + 1)[:, None]
+        hopf = -f * derivative
+        return ChartPoints(self._positions(places), partials, normals, np.stack([hopf.real, -hopf.imag, -hopf.real]))
+
+    def inside(self, places: np.ndarray) -> np.ndarray:
+        """Mask (N,) of the places in the rectangle."""
+        return in_rectangle(places, self.domain)
+
+    def straightening(self, places: np.ndarray) -> np.ndarray:
+        """dw/dz = √(i f g′) (N,), up to its sign: where Re w or Im w is constant, curves are asymptotic."""
+        return np.sqrt(1j * self._f(places)[0] * self._g(places)[1])
+
+    @cached_property
+    def _f(self) -> Holomorphic:
+        return holomorphic(self.f, "surface.weierstrass.f")
+
+    @cached_property
+    def _g(self) -> Holomorphic:
+        return holomorphic(self.g, "surface.weierstrass.g")
+
+    def _positions(self, places: np.ndarray) -> np.ndarray:
+        node, weight = np.polynomial.legendre.leggauss(NODES)
+        along = ((np.arange(PANELS)[:, None] + 0.5 * (node + 1)) / PANELS).ravel()
+        middle = 0.5 * sum(self.domain)
+        reach = places - middle
+        at = (middle + along[:, None] * reach).ravel()
+        values = _integrand(self._f(at)[0], self._g(at)[0]).reshape(len(along), len(places), 3)
+        return np.real(np.einsum("k,kni->ni", np.tile(0.5 * weight / PANELS, PANELS), values) * reach[:, None])
+
+
+def _integrand(f: np.ndarray, g: np.ndarray) -> np.ndarray:
+    """dX/dz (N, 3): twice the derivative of X by z."""
+    return np.stack([0.5 * f * (1 - g**2), 0.5j * f * (1 + g**2), f * g], axis=1)
