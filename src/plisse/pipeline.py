@@ -7,12 +7,13 @@ import msgspec
 import numpy as np
 
 from plisse.arrangements import arranged_strips
+from plisse.asymptotic import along_asymptotic_curves
 from plisse.assess import assess, overlap_notes, start_defects
 from plisse.errors import Infeasible
 from plisse.io.designs import design_from_dict, read_design
 from plisse.layout.guiding import Guiding, guiding
 from plisse.outcomes import broken_down, way_of
-from plisse.recipe import Curve, Design, March, SurfaceDesign
+from plisse.recipe import AsymptoticDesign, Curve, Design, March, SurfaceDesign
 from plisse.result import Report, Result
 from plisse.solve.attempt import Start
 from plisse.solve.closed_form import closed_form
@@ -35,7 +36,7 @@ __all__ = ["design"]
 Progress = Callable[[str, float], None]
 
 
-def design(recipe: Design | SurfaceDesign | dict | str | Path, *, progress: Progress | None = None,
+def design(recipe: Design | SurfaceDesign | AsymptoticDesign | dict | str | Path, *, progress: Progress | None = None,
            workspace: Workspace | None = None) -> Result:
     """The structure that a recipe asks for, with the pattern it follows and the report that proves it.
 
@@ -45,6 +46,8 @@ def design(recipe: Design | SurfaceDesign | dict | str | Path, *, progress: Prog
     """
     recipe = _checked(recipe)
     watch = Stopwatch(progress)
+    if isinstance(recipe, AsymptoticDesign):
+        return along_asymptotic_curves(recipe, watch, workspace or Workspace())
     if recipe.strips is not None:
         return arranged_strips(recipe, watch)
     if isinstance(recipe, SurfaceDesign):
@@ -145,8 +148,8 @@ def _measured(recipe: Design, guides: np.ndarray, amplitude: float, structure: P
     return msgspec.structs.replace(report, seconds=watch.stop(), design=recipe.to_dict())
 
 
-def _checked(recipe: Design | SurfaceDesign | dict | str | Path) -> Design | SurfaceDesign:
-    if isinstance(recipe, Design | SurfaceDesign):
+def _checked(recipe: Design | SurfaceDesign | AsymptoticDesign | dict | str | Path) -> Design | SurfaceDesign | AsymptoticDesign:
+    if isinstance(recipe, Design | SurfaceDesign | AsymptoticDesign):
         return design_from_dict(recipe.to_dict())  # objects made in Python are not validated before
     return design_from_dict(recipe) if isinstance(recipe, dict) else read_design(recipe)
 

@@ -7,7 +7,7 @@ import msgspec
 import numpy as np
 
 from plisse.geometry.mesh import ReferenceMesh
-from plisse.recipe import Design, SurfaceDesign
+from plisse.recipe import AsymptoticDesign, Design, SurfaceDesign
 from plisse.structure.pattern import Pattern
 from plisse.structure.pleated import PleatedStructure
 from plisse.transform.arrangement import Arrangement
@@ -117,7 +117,7 @@ class Result:
     `surface` where there is one.
     """
 
-    design: Design | SurfaceDesign
+    design: Design | SurfaceDesign | AsymptoticDesign
     report: Report
     pattern: Pattern | None = None
     zigzagged: PleatedStructure | None = None

@@ -10,7 +10,7 @@ from plisse.recipe import Design, SurfaceDesign
 from plisse.result import Result
 from plisse.solve.workspace import Workspace
 
-__all__ = ["Session"]
+__all__ = ["Session", "changed"]
 
 Progress = Callable[[str, float], None]
 SECTIONS = ("pattern", "curve", "surface", "closed_form", "march", "solve")
@@ -33,15 +33,11 @@ class Session:
 
         A value None brings a key's default back. Keys that stand in one section only need not name it.
         """
-        data = self.recipe.to_dict()
-        for name, value in {**(changes or {}), **values}.items():
-            section, key = self._place(name, data)
-            place = data if section is None else data.setdefault(section, {})
-            if value is None:
-                place.pop(key, None)
-            else:
-                place[key] = value
-        recipe = design_from_dict(data)
+        return self.open(changed(self.recipe, {**(changes or {}), **values}), progress=progress)
+
+    def open(self, recipe: Design | SurfaceDesign | dict | str | Path, *, progress: Progress | None = None) -> Result:
+        """The structure of another recipe, on the patterns that are kept."""
+        recipe = read_design(recipe) if isinstance(recipe, str | Path) else _checked(recipe)
         result = self._solved(recipe, progress)
         self.recipe, self.result = recipe, result
         return result
@@ -49,21 +45,35 @@ class Session:
     def _solved(self, recipe: Design | SurfaceDesign, progress: Progress | None) -> Result:
         return design(recipe, progress=progress, workspace=self._workspace)
 
-    def _place(self, name: str, data: dict) -> tuple[str | None, str]:
-        """Section and key that a name means."""
-        section, dot, key = name.partition(".")
-        if dot:
-            return section, key
-        if name in (*SECTIONS, "units"):
-            return None, name
-        fitting = [section for section in SECTIONS if name in _keys(getattr(self.recipe, section, None))]
-        if len(fitting) == 1:
-            return fitting[0], name
-        if fitting:
-            raise InvalidDesign(f"{name} stands in the sections {' and '.join(fitting)}; say which, as in "
-                                f"update({{\"{fitting[0]}.{name}\": …}})")
-        known = sorted({key for section in SECTIONS for key in _keys(getattr(self.recipe, section, None))})
-        raise InvalidDesign(f"a design of this kind has no key {name}; its keys are {', '.join(known)}")
+
+def changed(recipe: Design | SurfaceDesign, changes: dict) -> Design | SurfaceDesign:
+    """The checked recipe after changes, named as in `Session.update`; raises InvalidDesign where there is none."""
+    data = recipe.to_dict()
+    for name, value in changes.items():
+        section, key = _place(recipe, name)
+        place = data if section is None else data.setdefault(section, {})
+        if value is None:
+            place.pop(key, None)
+        else:
+            place[key] = value
+    return design_from_dict(data)
+
+
+def _place(recipe: Design | SurfaceDesign, name: str) -> tuple[str | None, str]:
+    """Section and key that a name means."""
+    section, dot, key = name.partition(".")
+    if dot:
+        return section, key
+    if name in (*SECTIONS, "units"):
+        return None, name
+    fitting = [section for section in SECTIONS if name in _keys(getattr(recipe, section, None))]
+    if len(fitting) == 1:
+        return fitting[0], name
+    if fitting:
+        raise InvalidDesign(f"{name} stands in the sections {' and '.join(fitting)}; say which, as in "
+                            f"update({{\"{fitting[0]}.{name}\": …}})")
+    known = sorted({key for section in SECTIONS for key in _keys(getattr(recipe, section, None))})
+    raise InvalidDesign(f"a design of this kind has no key {name}; its keys are {', '.join(known)}")
 
 
 def _checked(recipe: Design | SurfaceDesign | dict) -> Design | SurfaceDesign:

@@ -99,3 +99,17 @@ def test_an_offset_beyond_the_limit_names_it(file, capsys):
     assert main(["offset", "conics.fold", "--distance", "1e3"]) == 1
     named = capsys.readouterr().err.split()[-1]
     assert float(named) == pytest.approx(offset_range(structure)[1], rel=1e-4)
+
+
+def test_plates_are_laid_out_on_material(file, without_picture):
+    assert main(["plates", "cones.fold", "--thickness", "2", "--material", "1500x900", "--kerf", "0.2", "--quiet"]) == 0
+    sheets = sorted((file.parent / "plates").glob("plates-sheet-*.svg"))
+    assert sheets
+    words = "".join(sheet.read_text(encoding="utf-8") for sheet in sheets)
+    assert all(f">{number}</text>" in words for number in range(1, 25))
+
+
+def test_plates_larger_than_the_material_leave_nothing_behind(file, capsys):
+    assert main(["plates", "cones.fold", "--thickness", "2", "--material", "60x60"]) == 1
+    assert "does not fit" in capsys.readouterr().err
+    assert [path.name for path in file.parent.iterdir()] == ["cones.fold"]

@@ -3,7 +3,7 @@
 import pytest
 
 import plisse
-from plisse.cli.shipped import find_design
+from plisse.shipped import find_design
 from plisse.fabricate import sheets
 
 

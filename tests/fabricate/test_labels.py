@@ -27,7 +27,8 @@ def test_every_numbered_edge_has_its_label_close_by_on_both_pieces(plans, figure
             for side in (0, 1):
                 if joint.pieces[side] == piece.number - 1:
                     for name, path in zip(joint.labels, joint.edges(side), strict=True):
-                        nearest = min(place, key=lambda words: place[words].distance(shapely.LineString(points[path])))
+                        middle = shapely.Point(points[path].mean(axis=0))
+                        nearest = min(place, key=lambda words: place[words].distance(middle))
                         assert nearest == name
                         sides[name] = sides.get(name, 0) + 1
     assert sides and set(sides.values()) == {2}

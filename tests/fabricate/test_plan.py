@@ -1,13 +1,16 @@
 """Sheets of developments that overlap: disjoint, complete, numbered, and they go together again."""
 
+import sys
 from itertools import pairwise
 
 import numpy as np
 import pytest
 import shapely
 
-from plisse.errors import Infeasible, InvalidStructure, PlisseError
+from plisse.errors import Infeasible, InvalidStructure, MissingExtra, PlisseError
 from plisse.fabricate import sheets
+from plisse.structure.grid import grid
+from plisse.structure.pleated import PleatedStructure
 
 FIGURES = ["fig19", "fig27"]
 
@@ -132,6 +135,27 @@ def test_bands_too_long_for_the_material_are_cut_along_creases_and_their_edges_s
     assert any(joint.on_crease for joint in narrow.joints)
 
 
+@pytest.mark.parametrize("side", [600.0, 110.0])
+def test_holes_and_notches_of_masked_grids_are_cut_out_too(cones, side):
+    kept = np.ones((6, 24), bool)
+    kept[2:4, 8:12] = kept[0, :5] = kept[5, 15:] = False
+    topology = grid(7, 25, mask=kept)
+    masked = PleatedStructure(topology, cones.vertices, development=cones.development)
+    plan = sheets(masked, material=(side, side))
+    bare = [plan.paper.polygon(piece.faces) for piece in plan.pieces]
+    assert all(polygon.is_valid for polygon in bare)
+    whole = sum(shapely.Polygon(plan.paper.points[face]).area for face in topology.faces)
+    assert sum(polygon.area for polygon in bare) == pytest.approx(whole, rel=1e-9)
+    if side == 600.0:
+        piece, = plan.pieces
+        assert [len(piece.outline.interiors), len(piece.rings)] == [1, 2]
+    else:
+        assert len(plan.pieces) > 2
+        back = reassembled(plan)
+        for joint in plan.joints:
+            assert np.abs(back[joint.pieces[0]][joint.left] - back[joint.pieces[1]][joint.right]).max() < 1e-9
+
+
 def test_kerf_grows_outlines_by_half_of_it_and_nothing_else(cones):
     plain, grown = (sheets(cones, material=(600.0, 400.0), kerf=kerf) for kerf in (0.0, 0.4))
     piece, cut = plain.pieces[0].outline, grown.pieces[0].outline
@@ -154,6 +178,7 @@ def test_the_method_of_a_structure_is_the_same(cones):
     ({"material": (10.0, 40.0)}, Infeasible, "smaller than its margins"),
     ({"material": (24.0, 24.0)}, Infeasible, "face .* alone"),
     ({"kerf": 90.0}, Infeasible, "kerf of 90 mm is wider than piece 1"),
+    ({"kerf": 900.0}, Infeasible, "kerf of 900 mm is wider than any piece"),
     ({"kerf": -1.0}, PlisseError, "kerf is -1"),
     ({"scale": 0.0}, PlisseError, "scale is 0"),
     ({"joint": "glue"}, PlisseError, "tabs or edges"),
@@ -170,6 +195,12 @@ def test_developments_out_of_proportion_are_refused_before_hours_go_by(cones, mo
     monkeypatch.setattr("plisse.fabricate.splitting.MOST", 3)
     with pytest.raises(Infeasible, match="at least 4 sheets"):
         sheets(cones, material=(80.0, 80.0))
+
+
+def test_dense_nesting_without_its_library_says_what_to_install(cones, monkeypatch):
+    monkeypatch.setitem(sys.modules, "spyrrow", None)
+    with pytest.raises(MissingExtra, match=r"plisse\[nest\]"):
+        sheets(cones, nesting="dense")
 
 
 def test_without_development_there_is_nothing_to_cut(cones):

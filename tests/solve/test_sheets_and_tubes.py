@@ -110,6 +110,6 @@ def test_a_centre_stands_for_the_nearest_place_of_a_sheet():
 @pytest.mark.slow
 def test_more_than_a_hemisphere_is_covered_with_seams():
     mesh = Sphere(10.0, cap=np.radians(110)).mesh(48)
-    found = whole_surface(mesh, ParametricSurface(mesh))
+    found = whole_surface(mesh, ParametricSurface(mesh), width=1.4, candidates=6)
     assert found.best.solved.is_sound
     assert found.coverage > 0.95

@@ -7,6 +7,9 @@ from plisse.errors import Infeasible, InvalidStructure
 from plisse.measure.folds import fold_angles
 from plisse.structure.exact import alternating_cones, conic_creases, marched, miura
 from plisse.structure.helical import helical_pleats
+from plisse.structure.lines import joined
+from plisse.structure.pleated import PleatedStructure
+from plisse.structure.topology import Topology
 from plisse.transform.refine_fold import inner_creases, refine_fold, refine_folds
 
 
@@ -135,3 +138,18 @@ def test_a_closed_crease_whose_parallels_do_not_close_is_refused():
     bent = ring.with_vertices(ring.vertices + 0.01 * rng.standard_normal(ring.vertices.shape))
     with pytest.raises(Infeasible, match=r"misses itself.*cut the structure open"):
         refine_folds(bent, [2])
+
+
+def test_seams_of_the_sheet_go_on_over_the_new_creases():
+    base = conic_creases(5, 20)
+    numbers = np.arange(100).reshape(5, 20)
+    seam = np.stack([numbers[:-1, 7], numbers[1:, 7]], axis=1)
+    topology = Topology(100, base.topology.quads, (), None, seam)
+    found = refine_folds(PleatedStructure(topology, base.vertices), [2])
+    (line,) = joined(found.topology.seams)
+    middle, far = 100 + 7, 120 + 7
+    wanted = [numbers[0, 7], numbers[1, 7], numbers[2, 7], middle, far, numbers[3, 7], numbers[4, 7]]
+    assert line.vertices.tolist() in (wanted, wanted[::-1])
+    along = Topology(100, base.topology.quads, (), None, np.stack([numbers[2, :-1], numbers[2, 1:]], axis=1))
+    with pytest.raises(InvalidStructure, match="seam"):
+        refine_folds(PleatedStructure(along, base.vertices), [2])

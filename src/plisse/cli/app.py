@@ -19,8 +19,10 @@ from plisse.cli.make import make
 from plisse.cli.offset import offset
 from plisse.cli.parallel import parallel
 from plisse.cli.plates import plates
+from plisse.cli.render import render
 from plisse.cli.sheets import sheets
 from plisse.cli.strips import strips
+from plisse.cli.study import study
 from plisse.cli.table import table
 from plisse.errors import PlisseError
 
@@ -43,9 +45,11 @@ app.command(make)
 app.command(check)
 app.command(export)
 app.command(sheets)
+app.command(render)
 app.command(gallery)
 app.command(layout)
 app.command(table)
+app.command(study)
 app.command(flex)
 app.command(offset)
 app.command(plates)
@@ -71,8 +75,8 @@ def main(tokens: Sequence[str] | None = None) -> int:
         return _complain("this design needs more memory than there is; lower pattern.samples or pattern.creases", BAD_INPUT)
     except OSError as error:
         return _complain(f"output failed ({(error.strerror or type(error).__name__).lower()})", BAD_INPUT)
-    except KeyboardInterrupt:
-        return _complain("interrupted, nothing was written", INTERRUPTED)
+    except KeyboardInterrupt as error:
+        return _complain(str(error) or "interrupted, nothing was written", INTERRUPTED)
     return code if isinstance(code, int) else EXACT
 
 

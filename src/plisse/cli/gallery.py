@@ -24,7 +24,7 @@ def gallery(
         File to copy to instead.
     """
     from plisse.cli.console import list_designs
-    from plisse.cli.shipped import description, shipped_design, shipped_names
+    from plisse.shipped import description, shipped_design, shipped_names
     from plisse.errors import PlisseError
     from plisse.io.atomic import written
 

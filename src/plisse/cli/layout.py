@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 if TYPE_CHECKING:
-    import numpy as np
-
     from plisse.geometry.graph import GraphSurface
     from plisse.geometry.parametric import ParametricSurface
     from plisse.recipe import SurfaceDesign
@@ -76,6 +74,8 @@ def layout(
 def design_text(recipe: SurfaceDesign, candidate: Candidate, surface: GraphSurface | ParametricSurface,
                 directory: Path, count: int) -> str:
     """The design of one candidate as TOML, with the mesh file as seen from `directory`."""
+    from plisse.solve.candidate import centre_of
+
     section, pattern, sizes = recipe.surface, recipe.pattern, candidate.layout.sizes
     lines = [f"# {candidate.layout.label}: {100 * candidate.coverage:.1f} % covered, mean deviation "
              f"{candidate.mean_deviation:.2f} amplitudes", f"units = {json.dumps(recipe.units)}", "", "[surface]"]
@@ -85,7 +85,7 @@ def design_text(recipe: SurfaceDesign, candidate: Candidate, surface: GraphSurfa
         lines += [f"radius = {_quoted(section.radius)}", f"x = {list(section.x)}"]
     else:
         lines += [f"height = {_quoted(section.height or '')}", f"x = {list(section.x)}", f"y = {list(section.y)}"]
-    centre = section.centre if section.centre is not None else _centre(candidate, surface, count)
+    centre = section.centre if section.centre is not None else centre_of(candidate, surface, count)
     if centre is not None:
         lines.append(f"centre = {[float(value) for value in centre]}  # rows run around this point")
     lines.append(f"overhang = {'true' if section.overhang else 'false'}  # may pleats lean by more than 45 degrees?")
@@ -105,7 +105,7 @@ def design_text(recipe: SurfaceDesign, candidate: Candidate, surface: GraphSurfa
 
 
 def _recipe(file: str) -> SurfaceDesign:
-    from plisse.cli.shipped import find_design, shipped_names
+    from plisse.shipped import find_design, shipped_names
     from plisse.errors import InvalidDesign
     from plisse.io.designs import read_design
     from plisse.recipe import Surface, SurfaceDesign
@@ -116,20 +116,6 @@ def _recipe(file: str) -> SurfaceDesign:
     if not isinstance(recipe, SurfaceDesign):
         raise InvalidDesign(f"{file} has no surface section, so there is nothing to lay out; give a mesh or such a design")
     return recipe
-
-
-def _centre(candidate: Candidate, surface: GraphSurface | ParametricSurface, count: int) -> np.ndarray | None:
-    """The point (3,) around which a candidate's rows run; None where they run around none, or where no point stands for
-    it because the surface does not reach there."""
-    import numpy as np
-
-    from plisse.layout.automatic import centres
-
-    for place in centres(surface.mesh, surface, count):
-        if candidate.layout.label.startswith(f"centre ({place[0]:.4g}, {place[1]:.4g})"):
-            point = surface.to_space(np.array([[*place, 0.0]]))
-            return point[0] if np.allclose(surface.to_plane(point)[0, :2], place, atol=1e-6 * surface.diagonal) else None
-    return None
 
 
 def _relative(file: Path, directory: Path) -> str:

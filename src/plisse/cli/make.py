@@ -42,7 +42,7 @@ def make(
         Print nothing.
     """
     from plisse.cli.console import progress, summarise
-    from plisse.cli.shipped import find_design
+    from plisse.shipped import find_design
     from plisse.io.atomic import require_writable
     from plisse.io.designs import read_design
     from plisse.io.report import report_json

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from cyclopts import Parameter
 
 if TYPE_CHECKING:
+    from plisse.draw.drawing import Drawing
     from plisse.io.model import Model
     from plisse.transform.hinged_range import HingedRange
     from plisse.transform.plates import Plates
@@ -23,6 +24,8 @@ def plates(
     gap: float = 0.0,
     side: Literal["inner", "outer", "both"] = "outer",
     hinged: Annotated[bool, Parameter(negative=())] = False,
+    material: str | None = None,
+    kerf: float = 0.0,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     json: Annotated[bool, Parameter(negative=())] = False,
     quiet: Annotated[bool, Parameter(negative=())] = False,
@@ -44,6 +47,10 @@ def plates(
         half on each.
     hinged
         Cut plates square, for a film that carries them and is the hinge, instead of mitring them.
+    material
+        Width x height of a sheet in mm, for example 600x300: all plates laid out on such sheets too (-sheet-1.svg, …).
+    kerf
+        Width of the cut in mm; outlines on sheets grow by half of it.
     output
         plates.obj, .stl, .glb or .3mf, or a directory for one STL per plate and an OBJ of all; `plates` if left out.
     json
@@ -64,7 +71,8 @@ def plates(
     model = read_model(structure)
     made = model.structure.plates(thickness, gap=gap, side=side, hinged=hinged)
     movement = hinged_range(made) if hinged else None
-    report = _write(made, movement, model, target)
+    nested = [] if material is None else _nested(made, model, material, kerf)
+    report = _write(made, movement, model, target, nested)
     if json:
         import json as encoder
 
@@ -74,7 +82,17 @@ def plates(
     return 0
 
 
-def _write(made: Plates, movement: HingedRange | None, model: Model, target: Path) -> dict:
+def _nested(made: Plates, model: Model, material: str, kerf: float) -> list[Drawing]:
+    """Sheets of the material with the outlines of all plates."""
+    from plisse.cli.sheets import material_size
+    from plisse.draw.plate_sheets import plate_drawings
+    from plisse.fabricate.plate_sheets import plate_sheets
+
+    plan = plate_sheets(made, material=material_size(material), units=model.units, kerf=kerf)
+    return plate_drawings(plan, title=f"plates of {model.title}")
+
+
+def _write(made: Plates, movement: HingedRange | None, model: Model, target: Path, nested: list[Drawing]) -> dict:
     """The report without its table; all files are written, into the target or its directory, together or not at all."""
     from plisse.draw.plates import film, write_plates_picture
     from plisse.io.atomic import require_writable, written_together
@@ -87,7 +105,8 @@ def _write(made: Plates, movement: HingedRange | None, model: Model, target: Pat
     directory, stem = (target.parent, target.stem) if single else (target, "plates")
     names = [target.name if single else "plates.obj", *(stem + suffix for suffix in (".csv", ".json", ".png", ".svg"))]
     require_writable(directory, names)
-    former = [] if single else [file.name for file in target.glob("plate_*.stl")]
+    former = [file.name for file in directory.glob(f"{stem}-sheet-*.svg")]
+    former += [] if single else [file.name for file in target.glob("plate_*.stl")]
     title = f"plates of {model.title}"
     document = plates_document(made, movement, units=model.units, title=title)
     with written_together(directory, owned=former) as stage:
@@ -97,6 +116,8 @@ def _write(made: Plates, movement: HingedRange | None, model: Model, target: Pat
         write_plates_picture(made, stage / names[3], movement=movement, title=title, units=model.units)
         if made.structure.development is not None:
             write_svg(film(made, model.units, title=title), stage / names[4])
+        for number, drawing in enumerate(nested, 1):
+            write_svg(drawing, stage / f"{stem}-sheet-{number}.svg")
         for number, solid in enumerate([] if single else solids(made), 1):
             write_solid_stl(solid, stage / f"plate_{number:0{len(str(made.count))}d}.stl", model.units)
     return {key: value for key, value in document.items() if key != "table"}

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from plisse.fabricate import Sheets
     from plisse.io.model import Model
 
-__all__ = ["sheets"]
+__all__ = ["material_size", "sheets"]
 
 
 def sheets(
@@ -88,7 +88,7 @@ def sheets(
     if not tolerance > 0:
         raise PlisseError(f"--tolerance {tolerance:g} leaves no room for a curve; give a number of mm above 0")
     page = None if paper is None else paper_size(paper)
-    sheet = _size(material) if material is not None else page or (600.0, 300.0)
+    sheet = material_size(material) if material is not None else page or (600.0, 300.0)
     require_place(output)
     model = developed(read_model(structure))
     plan = cut_up(model.structure, material=sheet, units=model.units, scale=_scale(model, scale, size), kerf=kerf,
@@ -105,8 +105,8 @@ def sheets(
     return 0
 
 
-def _size(material: str) -> tuple[float, float]:
-    """Width and height in mm from words such as 600x300."""
+def material_size(material: str) -> tuple[float, float]:
+    """Width and height in mm from words such as 600x300; raises PlisseError for others."""
     from plisse.errors import PlisseError
 
     parts = material.lower().replace("×", "x").split("x")

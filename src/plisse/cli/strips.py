@@ -133,7 +133,7 @@ def _from_design(name: str, width: float | None, thickness: float | None, side: 
     """Strips along the guiding curves of a design."""
     from msgspec.structs import replace
 
-    from plisse.cli.shipped import find_design
+    from plisse.shipped import find_design
     from plisse.io.designs import read_design
     from plisse.pipeline import design
 

@@ -13,7 +13,7 @@ from plisse.draw.table import table
 from plisse.structure.pleated import PleatedStructure
 from plisse.transform.flex import Motion
 
-__all__ = ["write_gif"]
+__all__ = ["paletted", "write_gif"]
 
 LARGEST = (720, 540)
 MARGIN, RIM = 36, 4
@@ -31,7 +31,7 @@ def write_gif(motion: Motion, path: str | Path) -> None:
     width, height = np.ceil(extent * scale + 2 * MARGIN).astype(int).tolist()
     size = width, height
     states = [PleatedStructure(motion.topology, vertices) for vertices in motion.vertices]
-    frames = _paletted([_frame(state, camera, scale, low, size, runs) for state in states])
+    frames = paletted([_frame(state, camera, scale, low, size, runs) for state in states])
     frames = frames + frames[-2:0:-1]
     pause = max(BRIEFEST, SECONDS_ONE_WAY / max(1, len(states) - 1))
     frames[0].save(path, format="GIF", save_all=True, append_images=frames[1:], duration=round(1000 * pause), loop=0)
@@ -73,7 +73,7 @@ def _inked(picture: Rendering, structure: PleatedStructure, corner: np.ndarray, 
     return ink.convert("RGB"), (0, 0), ink.getchannel("A")
 
 
-def _paletted(images: list) -> list:
+def paletted(images: list) -> list:
     """The pictures in one common palette, taken from some of them, so that colours do not flicker."""
     from PIL import Image
 

@@ -15,20 +15,35 @@ SAMPLES = 4000
 
 @dataclass(frozen=True, eq=False)
 class Camera:
-    """Rows `axes` (3, 3): right, up and towards the viewer."""
+    """Rows `axes` (3, 3): right, up and towards the viewer; `upright` (3,) is what stands orthogonal on the table."""
 
     axes: np.ndarray
+    upright: np.ndarray | None = None
 
     def project(self, points: np.ndarray) -> np.ndarray:
         """Points (…, 3) in the camera's frame: x right, y up, z towards the viewer; lengths unchanged."""
         return points @ self.axes.T
+
+    @property
+    def elevation_degrees(self) -> float:
+        """Angle in degrees from which the xy plane is seen from above, −90 to 90."""
+        return float(np.degrees(np.arctan2(self.axes[2, 2], np.hypot(*self.axes[2, :2]))))
 
     @classmethod
     def looking_from(cls, direction: np.ndarray, up: np.ndarray) -> "Camera":
         """Camera that looks against `direction` with `up` as vertical as can be."""
         towards = unit(direction)
         right = unit(np.cross(up, towards))
-        return cls(np.stack([right, np.cross(towards, right), towards]))
+        return cls(np.stack([right, np.cross(towards, right), towards]), unit(up))
+
+    @classmethod
+    def at(cls, azimuth: float, elevation: float) -> "Camera":
+        """Camera at angles in radians: azimuth from the x axis around z, elevation above the xy plane."""
+        level = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
+        upright = np.array([0.0, 0.0, 1.0])
+        towards = np.cos(elevation) * level + np.sin(elevation) * upright
+        up = np.cos(elevation) * upright - np.sin(elevation) * level
+        return cls(np.stack([np.cross(up, towards), up, towards]), upright)
 
 
 def best_view(structure: PleatedStructure) -> Camera:

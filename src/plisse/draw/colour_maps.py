@@ -100,7 +100,7 @@ def deviation_from_guides(structure: PleatedStructure, pattern: Pattern, amplitu
 
 def _deviation(title: str, values: np.ndarray) -> ColourMap:
     known = values[np.isfinite(values)]
-    most = float(np.quantile(known, 0.98)) if len(known) else 1.0
+    most = float(known.max()) if len(known) else 1.0
     return ColourMap("deviation", title, values, linear_scale(0.0, most, least=0.1))
 
 

@@ -4,92 +4,73 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plisse.draw.denoise import smoothed, spread_out
+from plisse.draw.denoise import Seen, smoothed
 from plisse.draw.rays import Occluder, can_cast, fibonacci_sphere
 from plisse.draw.shade import BLUR, SUN, occlusion, soft, sunlight
 
-__all__ = ["Fineness", "cast_light", "light", "screen_light"]
+__all__ = ["TILE", "Fineness", "light", "open_share"]
 
-TILE = 4  # neighbouring pixels look in different directions and share what they see
-OFF = 0.35  # pixels off the surface where rays start
+TILE = 3  # neighbouring pixels look in different directions and share what they see
+OFF = 0.1  # pixels off the surface where rays start
 
 
 @dataclass(frozen=True)
 class Fineness:
-    """Rays to the sky and to the sun per pixel; the sky is sampled at every `step`-th pixel on both axes.
+    """Rays per pixel to the sky and to the sun; `cast` False, or no embree, leaves both to the depth buffer, which is faster."""
 
-    `cast` False, or no embree, leaves it to the depth buffer.
-    """
+    sky: int = 16
+    sun: int = 4
+    cast: bool = False
 
-    sky: int = 12
-    sun: int = 2
-    step: int = 2
-    cast: bool = True
-
-
-def light(triangles: np.ndarray, depth: np.ndarray, normals: np.ndarray, block: int,
-          fineness: Fineness) -> tuple[np.ndarray, np.ndarray]:
-    """Sun and sky (H, W) in 0…1 over pixels of `block` units, seen at `depth` (H, W), −inf outside, with unit `normals`."""
-    if fineness.cast and can_cast():
-        return cast_light(triangles, depth, normals, block, fineness)
-    return screen_light(triangles, depth, normals, block)
+    @property
+    def casts(self) -> bool:
+        """Whether rays are wanted and can be had."""
+        return self.cast and can_cast()
 
 
-def cast_light(triangles: np.ndarray, depth: np.ndarray, normals: np.ndarray, block: int,
-               fineness: Fineness) -> tuple[np.ndarray, np.ndarray]:
-    """Sun as a disk and sky as a cosine-weighted dome, by rays into the triangles (T, 3, 3)."""
-    occluder = Occluder((triangles - [0.5, 0.5, 0.0]) / block)
-    mask, flat = np.isfinite(depth), depth / block
-    directions = SUN + BLUR * fibonacci_sphere(TILE * TILE * fineness.sun)
-    sun = np.zeros(depth.shape, np.float32)
-    row, column, origins = _origins(flat, normals, mask, 1)
-    lit = (normals[row, column] @ SUN.astype(np.float32)) > 0
-    row, column, origins = row[lit], column[lit], origins[lit]
-    sun[row, column] = _open(occluder, origins, None, directions, _cell(row, column))
-    step = fineness.step
-    row, column, origins = _origins(flat, normals, mask, step)
-    sky = np.zeros((-(-depth.shape[0] // step), -(-depth.shape[1] // step)), np.float32)
-    sky[row // step, column // step] = _open(occluder, origins, normals[row, column],
-                                             fibonacci_sphere(TILE * TILE * fineness.sky), _cell(row // step, column // step))
-    some = slice(None, None, step)
-    sky = smoothed(sky, flat[some, some] / step, normals[some, some], mask[some, some])
-    return smoothed(sun, flat, normals, mask), spread_out(sky, step, flat, normals, mask)
+def light(triangles: np.ndarray, seen: Seen, fineness: Fineness) -> tuple[np.ndarray, np.ndarray]:
+    """Sun and sky (N,) in 0…1 at pixels, among triangles (T, 3, 3) in pixels."""
+    return _cast(triangles, seen, fineness) if fineness.casts else _from_the_screen(triangles, seen)
 
 
-def screen_light(triangles: np.ndarray, depth: np.ndarray, normals: np.ndarray, block: int) -> tuple[np.ndarray, np.ndarray]:
-    """Sun by a shadow map and sky by horizons in the depth buffer: what can be said without rays."""
-    mask = np.isfinite(depth)
-    row, column = np.nonzero(mask)
-    points = np.stack([column * block + 0.5, row * block + 0.5, depth[row, column]])
-    sun = np.zeros(depth.shape, np.float32)
-    sun[row, column] = sunlight(triangles, points.astype(np.float32))
-    # the sky varies slowly: every second block is enough
-    sky = occlusion(depth[::2, ::2] / (2 * block), normals[::2, ::2], radius=0.045 * max(depth.shape))
-    sky = sky.repeat(2, axis=0).repeat(2, axis=1)[:depth.shape[0], :depth.shape[1]]
-    return soft(sun, mask, 1.2), soft(sky, mask, 1.8)
+def _cast(triangles: np.ndarray, seen: Seen, fineness: Fineness) -> tuple[np.ndarray, np.ndarray]:
+    """Sun as a disk and sky as a cosine-weighted dome, by rays."""
+    occluder = Occluder(triangles)
+    chosen, numbers = seen.one_per_pixel()
+    known = seen.at(chosen)
+    origins = known.points + np.float32(OFF) * known.normals
+    cell = known.row % TILE * TILE + known.column % TILE
+    values, lit = np.zeros((len(chosen), 2), np.float32), known.normals @ SUN.astype(np.float32) > 0
+    disk = SUN + BLUR * fibonacci_sphere(TILE * TILE * fineness.sun)
+    values[lit, 0] = open_share(occluder, origins[lit], disk, cell[lit])
+    values[:, 1] = open_share(occluder, origins, fibonacci_sphere(TILE * TILE * fineness.sky), cell, known.normals)
+    return tuple(smoothed(values, known, numbers, seen).T)  # type: ignore[return-value]
 
 
-def _origins(depth: np.ndarray, normals: np.ndarray, mask: np.ndarray, step: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Rows and columns of every `step`-th pixel that shows something, and points (N, 3) just off it."""
-    row, column = (step * index for index in np.nonzero(mask[::step, ::step]))
-    points = np.stack([column, row, depth[row, column]], axis=1).astype(np.float32)
-    return row, column, points + np.float32(OFF) * normals[row, column]
-
-
-def _cell(row: np.ndarray, column: np.ndarray) -> np.ndarray:
-    return row % TILE * TILE + column % TILE
-
-
-def _open(occluder: Occluder, origins: np.ndarray, normals: np.ndarray | None, directions: np.ndarray,
-          cell: np.ndarray) -> np.ndarray:
-    """Share (N,) of rays that meet nothing: directions of the pixel's cell, about its normal where there is one.
+def open_share(occluder: Occluder, origins: np.ndarray, directions: np.ndarray, cell: np.ndarray,
+               normals: np.ndarray | None = None) -> np.ndarray:
+    """Share (N,) of rays that meet nothing, each point in the directions of its cell, about its normal where there is one.
 
     A unit vector spread evenly over the sphere, added to the normal, is spread by the cosine over the sky.
     """
-    fans = directions.reshape(-1, TILE * TILE, 3).swapaxes(0, 1)
+    fans = directions.astype(np.float32).reshape(-1, TILE * TILE, 3).swapaxes(0, 1)
     count = fans.shape[1]
     towards = fans[cell]
     if normals is not None:
-        towards = towards + np.float32(1.0001) * normals[:, None]
+        towards += np.float32(1.0001) * normals[:, None]
     blocked = occluder.blocked(origins.repeat(count, axis=0), towards.reshape(-1, 3))
     return 1 - blocked.reshape(-1, count).mean(axis=1, dtype=np.float32)
+
+
+def _from_the_screen(triangles: np.ndarray, seen: Seen) -> tuple[np.ndarray, np.ndarray]:
+    """Sun by a shadow map and sky by horizons in the depth buffer: what can be said without rays."""
+    chosen, _ = seen.one_per_pixel()
+    known = seen.at(chosen)
+    sun = known.image(sunlight(triangles, np.ascontiguousarray(known.points.T)))
+    depth = known.image(known.points[:, 2], -np.inf)
+    mask, normals = np.isfinite(depth), np.moveaxis(known.image(known.normals), 0, -1)
+    normals[~mask] = [0, 0, 1]
+    # the sky varies slowly: every second pixel is enough
+    sky = occlusion(depth[::2, ::2] / 2, normals[::2, ::2], radius=0.045 * max(seen.shape))
+    sky = sky.repeat(2, axis=0).repeat(2, axis=1)[:seen.shape[0], :seen.shape[1]]
+    return soft(sun, mask, 1.2)[seen.row, seen.column], soft(sky, mask, 1.8)[seen.row, seen.column]

@@ -79,7 +79,7 @@ def _rendered(structure: PleatedStructure, mesh: ReferenceMesh, shares: np.ndarr
     tint[~np.isfinite(shares)] = UNKNOWN
     image = _painted(paper, normals, tint, face_of)
     _glaze(image, paper, pane, camera.project(mesh.normals))
-    return Rendering(_halved(image), paper, camera, scale, low)
+    return Rendering(_halved(image), paper, camera, scale, low, (pleats - low) * scale)
 
 
 def _painted(paper: DepthBuffer, normals: np.ndarray, tint: np.ndarray, face_of: np.ndarray) -> np.ndarray:

@@ -21,7 +21,7 @@ from plisse.transform.outlines import Outlines
 from plisse.transform.plates import Plates
 from plisse.transform.solids import solids
 
-__all__ = ["film", "write_plates_picture"]
+__all__ = ["film", "plates_mesh", "write_plates_picture"]
 
 APART, NODE_APART, ENLARGED = 0.32, 0.09, 0.6
 NODE_TILT = np.radians(35)
@@ -33,7 +33,7 @@ def write_plates_picture(plates: Plates, path: str | Path, *, movement: HingedRa
                          units: str = "mm") -> None:
     """Write a PNG of all plates in place and exploded, of one node enlarged, and of hinged ones half way as they open."""
     camera, everything = best_view(plates.structure), np.arange(plates.count)
-    shapes, captions = [_body(plates, plates.lower, plates.upper, everything)], ["in place"]
+    shapes, captions = [plates_mesh(plates)], ["in place"]
     if movement is not None and (percent := 0.5 * (movement.low + 100)) < 99:
         lower, upper = placed(plates, flex(plates.structure, percent))
         shapes.append(_body(plates, lower[0], upper[0], everything))
@@ -46,6 +46,11 @@ def write_plates_picture(plates: Plates, path: str | Path, *, movement: HingedRa
         shapes.append(_node(plates, camera))
         captions.append("a node, enlarged")
     write_row(shapes, captions, path, camera=camera, title=title, facts=_facts(plates, units))
+
+
+def plates_mesh(plates: Plates) -> PleatedStructure:
+    """The solids of all plates in place, as one mesh of loose faces."""
+    return _body(plates, plates.lower, plates.upper, np.arange(plates.count))
 
 
 def _facts(plates: Plates, units: str) -> list[str]:

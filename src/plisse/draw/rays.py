@@ -36,17 +36,8 @@ class Occluder:
 
 
 def fibonacci_sphere(count: int) -> np.ndarray:
-    """Unit vectors (count, 3), evenly spread, in an order that leaves every stretch of them well spread too."""
-    index = (np.arange(count) * _coprime_step(count)) % count
-    height = 1 - (2 * index + 1) / count
-    turn = np.pi * (3 - np.sqrt(5)) * index
+    """Unit vectors (count, 3), evenly spread; every k-th of them are well spread too."""
+    index = np.arange(count)
+    height, turn = 1 - (2 * index + 1) / count, np.pi * (3 - np.sqrt(5)) * index
     radius = np.sqrt(1 - height * height)
     return np.stack([radius * np.cos(turn), radius * np.sin(turn), height], axis=1).astype(np.float32)
-
-
-def _coprime_step(count: int) -> int:
-    """A step near the golden section of `count` that visits every number below it."""
-    step = max(1, round(0.618 * count))
-    while np.gcd(step, count) != 1:
-        step += 1
-    return step

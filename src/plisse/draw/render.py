@@ -9,14 +9,16 @@ from scipy.ndimage import binary_closing, binary_opening
 from plisse.draw.camera import Camera
 from plisse.draw.colour_maps import ColourMap
 from plisse.draw.corners import corner_normals, corner_triangles
-from plisse.draw.raster import DepthBuffer, depth_planes, rasterise
+from plisse.draw.denoise import Seen
 from plisse.draw.light import Fineness, light
+from plisse.draw.raster import DepthBuffer, depth_planes, rasterise
 from plisse.draw.shade import paper_colour
 from plisse.structure.pleated import PleatedStructure
 
 __all__ = ["Rendering", "render", "render_triangles"]
 
 OVERSAMPLE = 2
+CALM = 0.04
 Paint = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 
 
@@ -24,8 +26,8 @@ Paint = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 class Rendering:
     """`image` (H, W, 4) in 0…1, row 0 at the bottom, and what is needed to hide lines behind it.
 
-    `scale` is pixels per model unit and `origin` (3,) the point of the camera's frame at the lower left
-    corner.
+    `scale` is pixels per model unit, `origin` (3,) the point of the camera's frame at the lower left corner, `triangles`
+    (T, 3, 3) what is shown, in pixels.
     """
 
     image: np.ndarray
@@ -33,6 +35,7 @@ class Rendering:
     camera: Camera
     scale: float
     origin: np.ndarray
+    triangles: np.ndarray
 
     def pixels(self, points: np.ndarray) -> np.ndarray:
         """Points (N, 3) of the structure in pixels: x right, y up, z towards the viewer."""
@@ -76,7 +79,7 @@ def render_triangles(triangles: np.ndarray, normals: np.ndarray, camera: Camera,
     pixels = (seen - origin) * scale * OVERSAMPLE
     buffer = rasterise(pixels, width * OVERSAMPLE, height * OVERSAMPLE)
     image = _image(buffer, pixels, camera.project(normals), tints, paint, fineness)
-    return Rendering(image, buffer, camera, scale, origin)
+    return Rendering(image, buffer, camera, scale, origin, pixels / OVERSAMPLE)
 
 
 def _painter(colour: ColourMap, values: np.ndarray) -> Paint:
@@ -92,23 +95,43 @@ def _painter(colour: ColourMap, values: np.ndarray) -> Paint:
 
 def _image(buffer: DepthBuffer, pixels: np.ndarray, normals: np.ndarray, tints: np.ndarray | None, paint: Paint | None,
            fineness: Fineness) -> np.ndarray:
-    height, width = buffer.depth.shape
-    row, column = np.nonzero(buffer.triangle >= 0)
-    place = np.stack([column, row], axis=1).astype(np.float32) + np.float32(0.5)
+    """Colours and coverage (H, W, 4), each pixel the mean of its samples."""
+    row, column, weight = _samples(buffer, _kinds(normals))
     owner = buffer.triangle[row, column]
+    place = np.stack([column, row], axis=1).astype(np.float32) + np.float32(0.5)
     normal, front = _normals_at(owner, place, pixels, normals)
-    field = np.zeros((height, width, 3), np.float32)
-    field[row, column] = normal
-    some = slice(None, None, OVERSAMPLE)
-    sun, sky = light(pixels, buffer.depth[some, some], field[some, some], OVERSAMPLE, fineness)
-    image = np.zeros((height, width, 4), np.float32)
-    coarse = row // OVERSAMPLE, column // OVERSAMPLE
-    own = None if paint is None else paint(pixels, owner, place)
-    image[row, column, :3] = paper_colour(normal, front, sun[coarse], sky[coarse], own)
+    shape = buffer.depth.shape[0] // OVERSAMPLE, buffer.depth.shape[1] // OVERSAMPLE
+    points = np.concatenate([place, buffer.depth[row, column, None]], axis=1) / np.float32(OVERSAMPLE)
+    seen = Seen(shape, row // OVERSAMPLE, column // OVERSAMPLE, points, normal)
+    sun, sky = light(pixels / OVERSAMPLE, seen, fineness)
+    colour = paper_colour(normal, front, sun, sky, None if paint is None else paint(pixels, owner, place))
     if tints is not None:
-        image[row, column, :3] *= tints[owner].astype(np.float32)
-    image[row, column, 3] = 1
-    return _reduced(image)
+        colour = colour * tints[owner].astype(np.float32)
+    pixel = seen.row * shape[1] + seen.column
+    total = [np.bincount(pixel, weight * part, shape[0] * shape[1]) for part in (*colour.T, 1)]
+    image = np.stack(total, axis=-1).astype(np.float32).reshape(*shape, 4)
+    image[..., :3] /= np.maximum(image[..., 3:], 1e-6)
+    return image
+
+
+def _samples(buffer: DepthBuffer, kinds: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Rows, columns and weights of samples to shade: one in pixels that show one surface, all in those with an edge."""
+    height, width = (size // OVERSAMPLE for size in buffer.triangle.shape)
+    blocks = buffer.triangle.reshape(height, OVERSAMPLE, width, OVERSAMPLE)
+    kind = kinds[blocks]
+    low, high = kind.min(axis=(1, 3)), kind.max(axis=(1, 3))
+    calm = (low > 0) & (high - low < CALM)
+    row, column = (OVERSAMPLE * index for index in np.nonzero(calm))
+    busy = (buffer.triangle >= 0) & ~calm.repeat(OVERSAMPLE, axis=0).repeat(OVERSAMPLE, axis=1)
+    more = np.nonzero(busy)
+    weight = np.concatenate([np.ones(len(row)), np.full(len(more[0]), 1 / OVERSAMPLE**2)])
+    return np.concatenate([row, more[0]]), np.concatenate([column, more[1]]), weight
+
+
+def _kinds(normals: np.ndarray) -> np.ndarray:
+    """A positive number per triangle that tells how it faces, and 0 at the end for none."""
+    facing = normals.mean(axis=1)
+    return np.append(4 + np.abs(facing @ [0.31, 0.47, 0.83]) + 2 * (facing[:, 2] > 0), 0.0).astype(np.float32)
 
 
 def _normals_at(owner: np.ndarray, place: np.ndarray, pixels: np.ndarray,
@@ -121,15 +144,6 @@ def _normals_at(owner: np.ndarray, place: np.ndarray, pixels: np.ndarray,
     a, b, c = pixels[:, 0], pixels[:, 1], pixels[:, 2]
     front = (np.cross(b - a, c - a)[:, 2] > 0)[owner]
     return np.where(front[:, None], normal, -normal), front
-
-
-def _reduced(image: np.ndarray) -> np.ndarray:
-    """Blocks of pixels averaged, colours weighted by coverage."""
-    height, width = image.shape[0] // OVERSAMPLE, image.shape[1] // OVERSAMPLE
-    blocks = image.reshape(height, OVERSAMPLE, width, OVERSAMPLE, 4)
-    total = blocks.sum(axis=(1, 3))
-    colour = total[..., :3] / np.maximum(total[..., 3:], 1)
-    return np.concatenate([colour, total[..., 3:] / OVERSAMPLE**2], axis=-1)
 
 
 def _densified(path: np.ndarray, step: float) -> np.ndarray:

@@ -38,8 +38,8 @@ class Scale:
             return [((power - low) / (high - low), f"1e{power}") for power in powers]
         step = _round_step((self.high - self.low) / TICKS)
         first = np.ceil(self.low / step - 1e-9) * step
-        places = np.arange(first, self.high + 1e-9 * step, step)
-        return [((place - self.low) / (self.high - self.low), f"{round(place, 9):g}{self.unit}") for place in places.tolist()]
+        places = np.arange(first, self.high + 1e-9 * step, step) + 0.0
+        return [((place - self.low) / (self.high - self.low), f"{round(place, 9) + 0.0:g}{self.unit}") for place in places.tolist()]
 
 
 def defect_scale(largest: float) -> Scale:

@@ -7,7 +7,7 @@ from plisse.draw.colours import BACK_OF_PAPER, PAPER, rgb
 from plisse.draw.raster import rasterise
 from plisse.geometry.vectors import unit
 
-__all__ = ["BLUR", "SUN", "occlusion", "paper_colour", "soft", "sunlight"]
+__all__ = ["BLUR", "SKY_COLOUR", "SUN", "SUN_COLOUR", "occlusion", "paper_colour", "soft", "sunlight"]
 
 SUN = unit(np.array([-0.55, 0.62, 0.66]))
 BLUR = 0.07
@@ -18,7 +18,7 @@ def paper_colour(normals: np.ndarray, front: np.ndarray, sun: np.ndarray, sky: n
     """Colours (N, 3) of points with unit normals (N, 3) towards the viewer.
 
     `front` says which side of the paper is seen, `sun` and `sky` in 0…1 how much of each reaches the point; `colour`
-    (N, 3) stands for the paper's own. Folds are lit by their own walls and paper lets some sun through, so shadows stay
+    (N, 3) stands for the paper's own and is darkened less. Folds are lit by their own walls and paper lets some sun through, so shadows stay
     warm and never black.
     """
     facing = normals @ SUN.astype(np.float32)
@@ -26,13 +26,13 @@ def paper_colour(normals: np.ndarray, front: np.ndarray, sun: np.ndarray, sky: n
     dome = (sky * (0.9 + 0.1 * normals[:, 1]))[:, None]
     diffuse = dome / (1 - BOUNCE * (1 - dome))
     light = SUN_COLOUR * direct + SKY_COLOUR * diffuse
-    paper = _PAPERS[front.astype(np.intp)] if colour is None else colour
-    return paper * np.sqrt(light / (1 + 0.06 * light))
+    tone = np.sqrt(light / (1 + 0.06 * light))
+    return _PAPERS[front.astype(np.intp)] * tone if colour is None else colour * (0.45 + 0.55 * tone)
 
 
-SUN_COLOUR = np.array([0.70, 0.665, 0.59], np.float32)
-SKY_COLOUR = np.array([0.40, 0.415, 0.43], np.float32)
-BOUNCE = np.array([0.62, 0.56, 0.47], np.float32)  # of sky light that other folds throw back
+SUN_COLOUR = np.array([0.56, 0.535, 0.48], np.float32)
+SKY_COLOUR = np.array([0.50, 0.485, 0.465], np.float32)
+BOUNCE = np.array([0.76, 0.70, 0.61], np.float32)  # of sky light that other folds throw back
 _PAPERS = np.stack([rgb(BACK_OF_PAPER), rgb(PAPER)]).astype(np.float32)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from plisse.draw.colours import BACKGROUND, SHADE, rgb
 
-__all__ = ["table"]
+__all__ = ["glow", "table"]
 
 COARSE = 5
 
@@ -19,14 +19,18 @@ def table(size: tuple[int, int], shape: np.ndarray, corner: np.ndarray,
     from scipy.ndimage import gaussian_filter, shift
 
     width, height = size[0] // COARSE, size[1] // COARSE
-    y, x = np.mgrid[0:height, 0:width]
-    glow = np.exp(-(((x / width - 0.36) / 0.62) ** 2 + ((y / height - 0.72) / 0.75) ** 2))
     floating = _stamped((height, width), shape[::COARSE, ::COARSE], corner / COARSE)
     lying = _inside((height, width), loops)
     shadow = (0.42 * gaussian_filter(shift(floating, (-7, 6), order=0), 7)
               + 0.3 * gaussian_filter(shift(lying, (-1, 1), order=0), 2))
     dark = np.clip(shadow, 0, 1)[..., None] * (1 - rgb(SHADE))
-    return np.clip(rgb(BACKGROUND) * (0.94 + 0.06 * glow)[..., None] * (1 - dark), 0, 1)
+    return np.clip(rgb(BACKGROUND) * glow(height, width)[..., None] * (1 - dark), 0, 1)
+
+
+def glow(height: int, width: int) -> np.ndarray:
+    """A soft fall of light over the page (height, width), 1 where it is brightest."""
+    y, x = np.mgrid[0:height, 0:width]
+    return 0.94 + 0.06 * np.exp(-(((x / width - 0.36) / 0.62) ** 2 + ((y / height - 0.72) / 0.75) ** 2))
 
 
 def _stamped(size: tuple[int, int], image: np.ndarray, corner: np.ndarray) -> np.ndarray:

@@ -1,6 +1,6 @@
 """Numbers on pieces: at every cut edge on both sides, and one for the piece; they touch neither lines nor each other."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
@@ -14,7 +14,7 @@ __all__ = ["CHARACTER", "Label", "labels_on"]
 CHARACTER = 0.95
 EDGE_HEIGHTS = (2.6, 2.2, 1.8, 1.5, 1.2, 1.0, 0.8, 0.65, 0.5)
 PIECE_HEIGHTS = (8.0, 6.5, 5.0, 4.0, 3.2, 2.6, 2.1, 1.7, 1.4, 1.1, 0.9, 0.7, 0.5)
-AWAY, SHARES = (0.7, 1.4, 2.4, 4.0), (0.5, 0.35, 0.65, 0.2, 0.8)
+AWAY, SHARES = (0.7, 1.4, 2.4, 4.0), (0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95)
 CLEAR = 0.35
 CANDIDATES = 600
 STEEPEST = np.radians(105)
@@ -69,23 +69,41 @@ class _Board:
         self._outline, self._obstacles, self._boxes = outline, obstacles, []
 
     def first(self, wishes: list[Label]) -> None:
-        """Put down the first wish that is clear, or else the last, which is the smallest."""
+        """Put down the first wish that is clear, or else the last, which is the smallest, as near as it can be."""
+        chosen = self._clear(wishes) or self._clear(_around(wishes[-1])) or wishes[-1]
+        self.labels.append(chosen)
+        self._boxes.append(_grown([chosen])[0])
+
+    def _clear(self, wishes: list[Label]) -> Label | None:
+        """The first of the wishes that touches neither lines nor labels, if there is one."""
         import shapely
 
-        boxes = shapely.polygons([wish.corners for wish in wishes])
-        grown = shapely.buffer(boxes, [min(CLEAR, 0.25 * wish.height) for wish in wishes], join_style="mitre")
-        clear = shapely.contains_properly(self._outline, grown) & ~shapely.intersects(self._obstacles, grown)
+        boxes = _grown(wishes)
+        clear = shapely.contains_properly(self._outline, boxes) & ~shapely.intersects(self._obstacles, boxes)
         if self._boxes:
-            clear &= ~shapely.intersects(grown[:, None], np.array(self._boxes)).any(axis=1)
-        chosen = int(np.argmax(clear)) if clear.any() else len(wishes) - 1
-        self.labels.append(wishes[chosen])
-        self._boxes.append(grown[chosen])
+            clear &= ~shapely.intersects(boxes[:, None], np.array(self._boxes)).any(axis=1)
+        return wishes[int(np.argmax(clear))] if clear.any() else None
 
     def room(self, centres: np.ndarray) -> np.ndarray:
         """Distance (C,) of places from the nearest line."""
         import shapely
 
         return shapely.distance(self._obstacles, shapely.points(centres))
+
+
+def _grown(labels: list[Label]) -> np.ndarray:
+    """Boxes of labels as shapely polygons, with a little air around them."""
+    import shapely
+
+    boxes = shapely.polygons([label.corners for label in labels])
+    return shapely.buffer(boxes, [min(CLEAR, 0.25 * label.height) for label in labels], join_style="mitre")
+
+
+def _around(label: Label) -> list[Label]:
+    """The label in places around its own, the nearest first."""
+    away, turn = np.meshgrid(np.arange(1.0, 15.0, 0.7), np.linspace(0, 2 * np.pi, 16, endpoint=False), indexing="ij")
+    centres = label.centre + (away * np.array([np.cos(turn), np.sin(turn)])).reshape(2, -1).T
+    return [replace(label, centre=(x, y)) for x, y in centres.tolist()]
 
 
 def _middles(paper: Paper, piece: Piece, points: np.ndarray) -> dict[frozenset[int], np.ndarray]:
@@ -109,7 +127,7 @@ def _along(words: str, edge: np.ndarray, opposite: np.ndarray) -> list[Label]:
     """Wishes for a label that runs beside an edge (N, 2) of several vertices, large ones first and near its middle."""
     length, wishes = _length(edge), []
     short = [height for height in EDGE_HEIGHTS if CHARACTER * height * len(words) <= length[-1]] or EDGE_HEIGHTS[-1:]
-    for height, share, away in product(short, SHARES, AWAY[:2]):
+    for height, share, away in product(short, SHARES, (0.35, *AWAY[:2])):
         place = np.array([np.interp(share * length[-1], length, coordinate) for coordinate in edge.T])
         k = int(np.clip(np.searchsorted(length, share * length[-1]) - 1, 0, len(edge) - 2))
         along = (edge[k + 1] - edge[k]) / (length[k + 1] - length[k])

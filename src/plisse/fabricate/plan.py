@@ -16,7 +16,7 @@ from plisse.fabricate.tabs import tabs_for
 from plisse.recipe import MILLIMETRES
 from plisse.structure.pleated import PleatedStructure
 
-__all__ = ["JointKind", "Nesting", "Sheets", "sheets"]
+__all__ = ["FOOTER", "JointKind", "Nesting", "Sheets", "require_lengths", "sheets"]
 
 JointKind = Literal["tabs", "edges"]
 Nesting = Literal["quick", "dense"]
@@ -90,6 +90,8 @@ def sheets(structure: PleatedStructure, *, material: tuple[float, float] = (600.
     if min(bed.width, bed.height) <= 0:
         raise Infeasible(f"material of {material[0]:g} × {material[1]:g} mm is smaller than its margins of {margin:g} mm "
                          f"and a caption of {FOOTER:g} mm; take larger material or a smaller margin")
+    if kerf >= min(bed.width, bed.height):
+        raise Infeasible(f"a kerf of {kerf:g} mm is wider than any piece on this material; give the width of the cut")
     flap = tab if joint == "tabs" else 0.0
     masks = split(paper, Room(bed.width - kerf, bed.height - kerf, flap, max(kerf, NARROWEST)))
     piece = np.empty(paper.topology.face_count, int)
@@ -107,15 +109,17 @@ def sheets(structure: PleatedStructure, *, material: tuple[float, float] = (600.
 
 def _require_sense(material: tuple[float, float], units: str, scale: float, kerf: float, joint: str, tab: float,
                    margin: float, spacing: float, nesting: str) -> None:
-    positive = {"material width": material[0], "material height": material[1], "scale": scale, "tab": tab}
-    for name, value in positive.items():
-        if not 0 < value < np.inf:
-            raise PlisseError(f"{name} is {value:g}; give a number above 0")
-    for name, value in {"kerf": kerf, "margin": margin, "spacing": spacing}.items():
-        if not 0 <= value < np.inf:
-            raise PlisseError(f"{name} is {value:g}; give a number from 0")
+    require_lengths(material, scale=scale, tab=tab, kerf=kerf, margin=margin, spacing=spacing)
     words = {"units": (units, tuple(MILLIMETRES)), "joint": (joint, get_args(JointKind)),
              "nesting": (nesting, get_args(Nesting))}
     for name, (word, known) in words.items():
         if word not in known:
             raise PlisseError(f"{name} {word!r} is unknown; give {' or '.join(known)}")
+
+
+def require_lengths(material: tuple[float, float], **numbers: float) -> None:
+    """Nothing; raises PlisseError where material, scale or tab is not above 0, or another number below 0."""
+    for name, value in {"material width": material[0], "material height": material[1], **numbers}.items():
+        least = "above" if name in ("material width", "material height", "scale", "tab") else "from"
+        if not (0 <= value < np.inf) or (value == 0 and least == "above"):
+            raise PlisseError(f"{name} is {value:g}; give a number {least} 0")

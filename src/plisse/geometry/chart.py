@@ -12,18 +12,17 @@ from plisse.geometry.graph import GraphSurface
 from plisse.geometry.height_field import HeightField
 from plisse.geometry.vectors import dot, unit
 
-__all__ = ["Chart", "ChartPoints", "FormulaChart", "GraphChart"]
+__all__ = ["Chart", "ChartPoints", "FormulaChart", "GraphChart", "in_rectangle"]
 
 
 @dataclass(frozen=True, eq=False)
 class ChartPoints:
-    """`positions` (N, 3), first partial derivatives `partials` (2, N, 3), unit `normals` (N, 3) and `second` (3, N).
+    """First partial derivatives `partials` (2, N, 3), unit `normals` (N, 3) and `second` (3, N).
 
     `second` holds L, M and N, the second derivatives of X times the normal: a direction (a, b) of the plane is
     asymptotic where L a² + 2M ab + N b² vanishes.
     """
 
-    positions: np.ndarray
     partials: np.ndarray
     normals: np.ndarray
     second: np.ndarray
@@ -48,8 +47,11 @@ class Chart(Protocol):
     def domain(self) -> tuple[complex, complex]:
         """Lower left and upper right corner of a rectangle that holds the part."""
 
+    def positions(self, places: np.ndarray) -> np.ndarray:
+        """Points (N, 3) over places (N,)."""
+
     def at(self, places: np.ndarray) -> ChartPoints:
-        """The surface at places (N,)."""
+        """How the surface runs at places (N,)."""
 
     def inside(self, places: np.ndarray) -> np.ndarray:
         """Mask (N,) of the places that belong to the part."""
@@ -67,10 +69,14 @@ class FormulaChart:
         (left, right), (low, high) = self.field.x, self.field.y
         return complex(left, low), complex(right, high)
 
+    def positions(self, places: np.ndarray) -> np.ndarray:
+        """Points (N, 3) of the graph over places (N,)."""
+        return np.column_stack([_plane(places), self.field.derivatives(places.real, places.imag)[0]])
+
     def at(self, places: np.ndarray) -> ChartPoints:
-        """The graph over places (N,)."""
-        height, zx, zy, *hessian = self.field.derivatives(places.real, places.imag)
-        return _graph(places, height, np.stack([zx, zy]), np.stack(hessian))
+        """How the graph runs over places (N,)."""
+        _, zx, zy, *hessian = self.field.derivatives(places.real, places.imag)
+        return _graph(np.stack([zx, zy]), np.stack(hessian))
 
     def inside(self, places: np.ndarray) -> np.ndarray:
         """Mask (N,) of the places in the rectangle."""
@@ -89,15 +95,20 @@ class GraphChart:
         plane = self.surface.to_plane(self.surface.mesh.vertices)[:, :2]
         return complex(*plane.min(axis=0)), complex(*plane.max(axis=0))
 
+    def positions(self, places: np.ndarray) -> np.ndarray:
+        """Points (N, 3) of the graph over places (N,), in space as the mesh lies."""
+        plane = _plane(places)
+        return self.surface.to_space(np.column_stack([plane, self.surface.heights(plane)[0]]))
+
     def at(self, places: np.ndarray) -> ChartPoints:
-        """The graph over places (N,), in space as the mesh lies."""
-        local = _graph(places, *self.surface.heights(np.stack([places.real, places.imag], axis=1)))
+        """How the graph runs over places (N,), in space as the mesh lies."""
+        local = _graph(*self.surface.heights(_plane(places))[1:])
         frame = self.surface.frame
-        return ChartPoints(self.surface.to_space(local.positions), local.partials @ frame, local.normals @ frame, local.second)
+        return ChartPoints(local.partials @ frame, local.normals @ frame, local.second)
 
     def inside(self, places: np.ndarray) -> np.ndarray:
         """Mask (N,) of the places under the mesh."""
-        return self.surface.is_over(np.stack([places.real, places.imag], axis=1))
+        return self.surface.is_over(_plane(places))
 
 
 def in_rectangle(places: np.ndarray, corners: tuple[complex, complex]) -> np.ndarray:
@@ -107,8 +118,12 @@ def in_rectangle(places: np.ndarray, corners: tuple[complex, complex]) -> np.nda
                       & (places.imag >= low.imag) & (places.imag <= high.imag))
 
 
-def _graph(places: np.ndarray, height: np.ndarray, slopes: np.ndarray, hessian: np.ndarray) -> ChartPoints:
-    zero, one = np.zeros_like(height), np.ones_like(height)
+def _plane(places: np.ndarray) -> np.ndarray:
+    return np.stack([places.real, places.imag], axis=1)
+
+
+def _graph(slopes: np.ndarray, hessian: np.ndarray) -> ChartPoints:
+    zero, one = np.zeros_like(slopes[0]), np.ones_like(slopes[0])
     partials = np.stack([np.stack([one, zero, slopes[0]], axis=1), np.stack([zero, one, slopes[1]], axis=1)])
     normals = unit(np.cross(*partials))
-    return ChartPoints(np.stack([places.real, places.imag, height], axis=1), partials, normals, hessian * normals[:, 2])
+    return ChartPoints(partials, normals, hessian * normals[:, 2])

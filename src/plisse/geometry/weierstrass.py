@@ -50,15 +50,25 @@ class MinimalSurface:
         """Corners of the rectangle."""
         return complex(self.x[0], self.y[0]), complex(self.x[1], self.y[1])
 
+    def positions(self, places: np.ndarray) -> np.ndarray:
+        """Points (N, 3) at places z (N,), by Gauss's rule along rays from the middle."""
+        node, weight = np.polynomial.legendre.leggauss(NODES)
+        along = ((np.arange(PANELS)[:, None] + 0.5 * (node + 1)) / PANELS).ravel()
+        middle = 0.5 * sum(self.domain)
+        reach = places - middle
+        at = (middle + along[:, None] * reach).ravel()
+        values = _integrand(self._f(at)[0], self._g(at)[0]).reshape(len(along), len(places), 3)
+        return np.real(np.einsum("k,kni->ni", np.tile(0.5 * weight / PANELS, PANELS), values) * reach[:, None])
+
     def at(self, places: np.ndarray) -> ChartPoints:
-        """The surface at places z (N,); positions by Gauss's rule along rays from the middle."""
+        """How the surface runs at places z (N,)."""
         (f, _), (g, derivative) = self._f(places), self._g(places)
         tangent = _integrand(f, g)
         partials = np.stack([tangent.real, -tangent.imag])
         square = np.abs(g) ** 2
         normals = np.stack([2 * g.real, 2 * g.imag, square - 1], axis=1) / (square + 1)[:, None]
         hopf = -f * derivative
-        return ChartPoints(self._positions(places), partials, normals, np.stack([hopf.real, -hopf.imag, -hopf.real]))
+        return ChartPoints(partials, normals, np.stack([hopf.real, -hopf.imag, -hopf.real]))
 
     def inside(self, places: np.ndarray) -> np.ndarray:
         """Mask (N,) of the places in the rectangle."""
@@ -75,16 +85,6 @@ class MinimalSurface:
     @cached_property
     def _g(self) -> Holomorphic:
         return holomorphic(self.g, "surface.weierstrass.g")
-
-    def _positions(self, places: np.ndarray) -> np.ndarray:
-        node, weight = np.polynomial.legendre.leggauss(NODES)
-        along = ((np.arange(PANELS)[:, None] + 0.5 * (node + 1)) / PANELS).ravel()
-        middle = 0.5 * sum(self.domain)
-        reach = places - middle
-        at = (middle + along[:, None] * reach).ravel()
-        values = _integrand(self._f(at)[0], self._g(at)[0]).reshape(len(along), len(places), 3)
-        return np.real(np.einsum("k,kni->ni", np.tile(0.5 * weight / PANELS, PANELS), values) * reach[:, None])
-
 
 def _integrand(f: np.ndarray, g: np.ndarray) -> np.ndarray:
     """dX/dz (N, 3): twice the derivative of X by z."""

@@ -7,16 +7,17 @@ from pathlib import Path
 import msgspec
 
 from plisse.errors import InvalidDesign
+from plisse.io.asymptotic_consistency import check_asymptotic_design
 from plisse.io.consistency import check_design
-from plisse.io.mistakes import refuse_non_finite, sentence
+from plisse.io.mistakes import is_asymptotic, refuse_non_finite, sentence
 from plisse.io.polylines import read_polyline
 from plisse.io.surface_consistency import check_surface_design
-from plisse.recipe import Design, Points, Spline, SurfaceDesign
+from plisse.recipe import AsymptoticDesign, Design, Points, Spline, SurfaceDesign
 
 __all__ = ["design_from_dict", "parse_assignment", "read_design"]
 
 
-def read_design(path: str | Path, overrides: Iterable[str] = ()) -> Design | SurfaceDesign:
+def read_design(path: str | Path, overrides: Iterable[str] = ()) -> Design | SurfaceDesign | AsymptoticDesign:
     """The design in a TOML file, with `section.key=value` overrides applied.
 
     Curve files are found beside the design and their points taken into it, so that the design stands alone.
@@ -41,14 +42,16 @@ def read_design(path: str | Path, overrides: Iterable[str] = ()) -> Design | Sur
     return design_from_dict(data, base=path.parent)
 
 
-def design_from_dict(data: dict, base: str | Path = ".") -> Design | SurfaceDesign:
+def design_from_dict(data: dict, base: str | Path = ".") -> Design | SurfaceDesign | AsymptoticDesign:
     """The checked design in nested dictionaries as TOML holds them; file names are relative to `base`.
 
-    A `surface` section makes it the design of a reconstruction.
+    A `surface` section makes it the design of a reconstruction, one with a `kind` that of pleats along asymptotic curves.
     """
     data = _plain(data)
     refuse_non_finite(data)
     try:
+        if is_asymptotic(data):
+            return _with_its_mesh(check_asymptotic_design(msgspec.convert(data, AsymptoticDesign)), Path(base))
         if "surface" in data:
             design = check_surface_design(msgspec.convert(data, SurfaceDesign))
             return _with_guide(_with_mesh(design, Path(base)), Path(base))
@@ -93,6 +96,13 @@ def _with_mesh(design: SurfaceDesign, base: Path) -> SurfaceDesign:
         return design
     edited = None if surface.edited_file is None else str(base / surface.edited_file)
     surface = msgspec.structs.replace(surface, file=str(base / surface.file), edited_file=edited)
+    return msgspec.structs.replace(design, surface=surface)
+
+
+def _with_its_mesh(design: AsymptoticDesign, base: Path) -> AsymptoticDesign:
+    if design.surface.file is None or base == Path():
+        return design
+    surface = msgspec.structs.replace(design.surface, file=str(base / design.surface.file))
     return msgspec.structs.replace(design, surface=surface)
 
 

@@ -7,6 +7,9 @@ import msgspec
 
 from plisse.errors import InvalidDesign
 from plisse.recipe import (
+    AsymptoticDesign,
+    AsymptoticPattern,
+    AsymptoticSurface,
     ClosedForm,
     Curve,
     Design,
@@ -21,16 +24,23 @@ from plisse.recipe import (
     Surface,
     SurfaceDesign,
     SurfacePattern,
+    WeierstrassData,
 )
 
-__all__ = ["refuse_non_finite", "sentence"]
+__all__ = ["is_asymptotic", "refuse_non_finite", "sentence"]
 
 SECTIONS = {"": Design, "pattern": Pattern, "march": March, "solve": Solve, "parallel": Parallel,
             "strips": Strips}
 SURFACE_SECTIONS = {"": SurfaceDesign, "surface": Surface, "pattern": SurfacePattern, "solve": Solve,
                     "strips": Strips}
-TABLES = {"surface.guide_section": Section, "surface.handles": Pull, "parallel.moves": Move}
+ASYMPTOTIC_SECTIONS = {"": AsymptoticDesign, "surface": AsymptoticSurface, "pattern": AsymptoticPattern}
+TABLES = {"surface.weierstrass": WeierstrassData, "surface.guide_section": Section, "surface.handles": Pull, "parallel.moves": Move}
 KINDS = {"curve": Curve, "closed_form": ClosedForm}
+
+
+def is_asymptotic(data: dict) -> bool:
+    """Whether a design in dictionaries asks for pleats along asymptotic curves: its surface has a `kind`."""
+    return isinstance(data.get("surface"), dict) and "kind" in data["surface"]
 
 
 def refuse_non_finite(value: object, path: str = "") -> None:
@@ -71,7 +81,8 @@ def _struct_at(path: str, data: dict) -> type | None:
     if (table := TABLES.get(re.sub(r"\[.*", "", path))) is not None:
         return table
     if section not in KINDS:
-        return (SURFACE_SECTIONS if "surface" in data else SECTIONS).get(section)
+        sections = ASYMPTOTIC_SECTIONS if is_asymptotic(data) else SURFACE_SECTIONS if "surface" in data else SECTIONS
+        return sections.get(section)
     entry = data.get(section)
     kind = entry.get("kind") if isinstance(entry, dict) else None
     return next((c for c in KINDS[section].__args__ if c.__struct_config__.tag == kind), None)

@@ -46,8 +46,7 @@ def write_sheets(drawings: list[Drawing], path: Path) -> list[Path]:
     PlisseError where the place cannot be written.
     """
     if path.suffix.lower() in TOGETHER:
-        with written(path) as aside:
-            TOGETHER[path.suffix.lower()][0](drawings, aside)
+        TOGETHER[path.suffix.lower()][0](drawings, path)
         return [path]
     if path.suffix == "":
         names = [f"sheet-{k}.svg" for k in range(1, len(drawings) + 1)]

@@ -1,6 +1,6 @@
 """Rows that start straight in a chart: across sheets in any direction, around tubes, or up a tube and all around it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -109,7 +109,7 @@ def directions(surface: ParametricSurface) -> Iterator[Straight]:
 
 
 def straight_and_round(mesh: ReferenceMesh, surface: ParametricSurface, sizes: Sizes,
-                       count: int) -> list[tuple[Straight | np.ndarray, Sizes]]:
+                       count: int) -> Sequence[tuple[Straight | np.ndarray, Sizes]]:
     """At most `count` ways to start: straight rows over a sheet, then centres; up and around a tube, of several sizes."""
     straight = list(directions(surface))
     if surface.period is None:

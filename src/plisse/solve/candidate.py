@@ -7,11 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plisse.layout.automatic import Layout
+from plisse.geometry.graph import GraphSurface
+from plisse.geometry.parametric import ParametricSurface
+from plisse.layout.automatic import Layout, centres
 from plisse.measure.mid_surface import MidSurfaceDeviation
 from plisse.solve.masked import Masked
 
-__all__ = ["FULL", "PARTED", "Candidate"]
+__all__ = ["FULL", "PARTED", "Candidate", "centre_of"]
 
 FULL = 0.995  # coverage that is as good as all
 FARNESS, FARNESS_APART = 0.04, 0.01  # coverage that one amplitude of mean deviation is worth, in one piece or in more
@@ -72,3 +74,15 @@ class Candidate:
     def is_done(self) -> bool:
         """Whether nothing is left to be covered or brought nearer."""
         return self.is_full and self.mean_deviation < NEAR
+
+
+def centre_of(candidate: Candidate, surface: GraphSurface | ParametricSurface, count: int) -> np.ndarray | None:
+    """The point (3,) around which the rows of one of `count` candidates run.
+
+    None where they run around none, or where no point stands for it because the surface does not reach there.
+    """
+    for place in centres(surface.mesh, surface, count):
+        if candidate.layout.label.startswith(f"centre ({place[0]:.4g}, {place[1]:.4g})"):
+            point = surface.to_space(np.array([[*place, 0.0]]))
+            return point[0] if np.allclose(surface.to_plane(point)[0, :2], place, atol=1e-6 * surface.diagonal) else None
+    return None

@@ -17,7 +17,7 @@ __all__ = ["Jobs", "best_of", "stages"]
 GENTLE = Trim(rounds=10, worst=0.004, hold=0.1)  # with seams few quads are in the way
 HOLDS = (0.03, 0.3, 0.0)
 FINALISTS = 3
-NOTABLE = 0.03  # coverage for which sheets are cut apart unasked
+NOTABLE = 0.1  # coverage for which sheets are cut apart unasked
 MOST_SEAMS = 8  # where none are asked for
 WORK = 300_000  # quads in all rounds that a search with seams may take, unless the search without took most of it
 
@@ -48,14 +48,14 @@ def _seamed(layouts: list[Layout], tried: list[Candidate], most: int | None) -> 
     ranked = sorted(tried, key=lambda candidate: candidate.rank, reverse=True)
     if ranked and ranked[0].lack < (NOTABLE if most is None else PARTED):
         return
-    of_layout = {id(candidate.layout): candidate for candidate in reversed(ranked)}
+    scanned = {id(candidate.layout): candidate for candidate in reversed(tried)}
     finalists = list({id(layout): layout for layout in [c.layout for c in ranked] + layouts}.values())[:FINALISTS + 1]
     spent, counts = _work(tried), seam_counts(MOST_SEAMS if most is None else most)
     for k, (count, layout) in enumerate(product(counts, finalists)):
-        mask, closed, best = layout.mask, layout.net.closed, of_layout.get(id(layout))
+        mask, closed, first = layout.mask, layout.net.closed, scanned.get(id(layout))
         choices = {even_columns(mask, closed, count)}
-        if best is not None:
-            choices.add(worst_columns(mask, best.solved.grid.mask, closed, count))
+        if first is not None:
+            choices.add(worst_columns(mask, first.solved.grid.mask, closed, count))
         for columns in sorted(choices - {()}):
             if _work(tried) > max(WORK, 1.5 * spent):
                 return

@@ -5,7 +5,6 @@ Where one piece does not reach, sheets are cut apart along seams and solved toge
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from itertools import chain, islice
 
 import numpy as np
 
@@ -126,8 +125,8 @@ def whole_surface(mesh: ReferenceMesh, surface: ChartedSurface, *, width: float 
     Lengths are in model units, `theta` (preferred inclination) is in radians. Only layouts around `centre` (3,) are
     tried where it is given; it may lie anywhere, its chart coordinates count. Without `overhang` layouts keep |θ|
     below 45° and creases open by 15° at least. The first crease lies `above` the surface or below; with `inside` no row
-    reaches beyond its boundary. At most `seams` cut it apart; None leaves it in one piece unless seams cover notably
-    more. `progress` hears the stage and how much of it is done. Raises Infeasible where no layout has a solution.
+    reaches beyond its boundary. At most `seams` cut it apart; None leaves it in one piece unless no centre is given
+    and seams cover notably more. `progress` hears the stage and how much of it is done. Raises Infeasible where no layout has a solution.
     """
     report = progress or (lambda stage, fraction: None)
     width = width or sensible_width(mesh, surface)
@@ -137,6 +136,7 @@ def whole_surface(mesh: ReferenceMesh, surface: ChartedSurface, *, width: float 
     if centre is not None and isinstance(surface, ParametricSurface) and surface.period is not None:
         raise Infeasible("creases go up a tube or around it, not around a centre; leave out surface.centre")
     place = None if centre is None else surface.to_plane(np.asarray(centre, float)[None])[0, :2]
+    seams = 0 if seams is None and centre is not None else seams
     layouts: list[Layout] = []
     tried: list[Candidate] = []
     for stage, jobs in stages(_first(task, sizes, place, candidates), layouts, tried, seams):

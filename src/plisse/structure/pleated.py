@@ -12,9 +12,9 @@ from plisse.structure.cut import Cut, uncut
 from plisse.structure.topology import Topology
 
 if TYPE_CHECKING:
-    from plisse.fabricate.plan import Sheets
     from trimesh import Trimesh
 
+    from plisse.fabricate.plan import Sheets
     from plisse.transform.arrangement import Arrangement
     from plisse.transform.flex import Motion
     from plisse.transform.plates import Plates

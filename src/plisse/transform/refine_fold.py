@@ -47,6 +47,7 @@ def refine_folds(structure: PleatedStructure, creases: Iterable[int], *, fractio
     quads, hubs = topology.quads.copy(), [hub.copy() for hub in topology.hubs]
     places = vertices.copy()
     folds = [_fold(topology, number) for number in creases]
+    seams = topology.seams
     ordering = [np.arange(len(vertices), dtype=float) if topology.ordering is None else topology.ordering]
     count = len(vertices)
     for fold in folds:
@@ -60,12 +61,13 @@ def refine_folds(structure: PleatedStructure, creases: Iterable[int], *, fractio
             renumber[quads[fold.beyond[fold.beyond < len(topology.quads)]]]
         for face in fold.beyond[fold.beyond >= len(topology.quads)] - len(topology.quads):
             hubs[face] = renumber[hubs[face]]
+        seams = _seams(seams, fold, middle, far)
         quads = np.concatenate([quads, _strip(old, middle, fold.closed), _strip(middle, far, fold.closed)])
         places[old] = vertices[old] + back
         places = np.concatenate([places, vertices[old] + back + ahead, vertices[old] + ahead])
         ordering += [ordering[0][old]] * 2
         count = len(places)
-    found = PleatedStructure(Topology(count, quads, tuple(hubs), np.concatenate(ordering)), places)
+    found = PleatedStructure(Topology(count, quads, tuple(hubs), np.concatenate(ordering), seams), places)
     _require_room(structure, found, folds, fraction)
     return found
 
@@ -149,6 +151,22 @@ def _offsets(structure: PleatedStructure, fold: _Fold, neighbours: np.ndarray, f
         raise Infeasible(f"a crease parallel to this one leaves its strip at {worst}; use a fraction below "
                          f"{least / share.max():.2g}, or place it there")
     return (fraction / least * share)[:, None] * rulings
+
+
+def _seams(seams: np.ndarray, fold: _Fold, middle: np.ndarray, far: np.ndarray) -> np.ndarray:
+    """Seams (S, 2) that cross the fold, carried on over its new creases."""
+    place = np.full(int(max(seams.max(initial=0), fold.path.max(), fold.ahead.max())) + 1, -1)
+    place[fold.path] = np.arange(len(fold.path))
+    crossing = place[seams]
+    if (crossing >= 0).all(axis=1).any():
+        raise InvalidStructure(f"crease {fold.number + 1} is a seam of the sheet, so there is no fold to replace")
+    out = seams.copy()
+    for own, other in ((0, 1), (1, 0)):
+        on = np.flatnonzero(crossing[:, own] >= 0)
+        beyond = on[seams[on, other] == fold.ahead[crossing[on, own]]]
+        out[beyond, own] = far[crossing[beyond, own]]
+    at = np.unique(crossing[crossing >= 0])
+    return np.concatenate([out, np.stack([fold.path[at], middle[at]], axis=1), np.stack([middle[at], far[at]], axis=1)])
 
 
 def _strip(lower: np.ndarray, upper: np.ndarray, closed: bool) -> np.ndarray:

@@ -5,13 +5,14 @@ from functools import cached_property
 
 import numpy as np
 
-from plisse.geometry.chart import Chart
 from plisse.layout.asymptotic.directions import Directions, Field
 from plisse.layout.stops import Stop
 
 __all__ = ["Leaf", "Limits", "trace_both_ways", "trace_leaves"]
 
 FEWEST_BEFORE_CLOSING = 8  # steps
+BETWEEN = 8  # pieces into which every step is divided by a cubic
+SMALLEST_STEP = 1 / 16  # of the step asked for, at a boundary
 
 
 @dataclass(frozen=True)
@@ -56,35 +57,14 @@ def trace_leaves(directions: Directions, starts: np.ndarray, ahead: np.ndarray, 
                  limits: Limits) -> tuple[Leaf, ...]:
     """Curves from places (N,) towards directions (N,): classical Runge–Kutta steps, all curves at once.
 
-    A field keeps its sense by continuity, so that the two families never mix.
+    A field keeps its sense by continuity, so that the two families never mix. Steps become smaller at a boundary.
     """
-    chart, step = directions.chart, limits.step
-    starts = place = np.array(starts, complex)
+    place = np.array(starts, complex)
     sense = directions.at(place, np.array(ahead, complex), field)
-    count = len(place)
-    stop = np.full(count, Stop.LENGTH, object)
-    active, lost = np.ones(count, bool), np.zeros(count)
-    first = sense
-    path, steps = [place], np.zeros(count, int)
-    for k in range(max(1, round(limits.length / step))):
-        at = np.flatnonzero(active)
-        after, turned = _step(directions, place[at], sense[at], field, step)
-        ended = _ended(chart, after, lost, at, limits)
-        back = np.abs(after - starts[at]) < 0.6 * step
-        if k >= FEWEST_BEFORE_CLOSING:
-            ended[back & ((turned * np.conj(first[at])).real > 0.9)] = Stop.CLOSED
-        stop[at[ended != None]] = ended[ended != None]  # noqa: E711  (element by element)
-        goes = at[ended == None]  # noqa: E711
-        active[:] = False
-        active[goes] = True
-        if not len(goes):
-            break
-        place, sense = place.copy(), sense.copy()
-        place[goes], sense[goes] = after[active[at]], turned[active[at]]
-        steps[goes] += 1
-        path.append(place)
-    lines = np.array(path)
-    return _leaves(chart, [lines[:last + 1, n] for n, last in enumerate(steps)], stop)
+    march = _March(directions, field, limits, place, sense)
+    while march.is_going:
+        march.step()
+    return march.leaves()
 
 
 def trace_both_ways(directions: Directions, starts: np.ndarray, field: Field, limits: Limits) -> tuple[Leaf, ...]:
@@ -93,36 +73,104 @@ def trace_both_ways(directions: Directions, starts: np.ndarray, field: Field, li
     if not len(starts):
         return ()
     ahead = directions.at(starts, np.ones(len(starts), complex), field)
-    both = zip(trace_leaves(directions, starts, -ahead, field, limits), trace_leaves(directions, starts, ahead, field, limits),
-               strict=True)
+    halves = trace_leaves(directions, np.tile(starts, 2), np.concatenate([ahead, -ahead]), field, limits)
     return tuple(forward if forward.stop is Stop.CLOSED else
                  Leaf(np.concatenate([backward.places[:0:-1], forward.places]),
                       np.concatenate([backward.points[:0:-1], forward.points]), forward.stop, backward.stop)
-                 for backward, forward in both)
+                 for forward, backward in zip(halves[:len(starts)], halves[len(starts):], strict=True))
 
 
-def _step(directions: Directions, place: np.ndarray, sense: np.ndarray, field: Field,
-          step: float) -> tuple[np.ndarray, np.ndarray]:
-    one = directions.at(place, sense, field)
+class _March:
+    """Curves on their way: where they are, how they go on, and why some have ended."""
+
+    def __init__(self, directions: Directions, field: Field, limits: Limits, place: np.ndarray, sense: np.ndarray):
+        self.directions, self.field, self.limits = directions, field, limits
+        self.starts, self.first = place, sense
+        self.place, self.sense = place.copy(), sense.copy()
+        count = len(place)
+        self.size = np.full(count, limits.step)
+        self.left = np.full(count, float(limits.length))
+        self.lost = np.zeros(count)
+        self.stop: list[Stop | None] = [None] * count
+        self.active = np.ones(count, bool)
+        self.path: list[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]] = []
+
+    @property
+    def is_going(self) -> bool:
+        return bool(self.active.any())
+
+    def step(self) -> None:
+        """One step of all active curves; those that may not take it try smaller ones or end."""
+        at = np.flatnonzero(self.active)
+        size = np.minimum(self.size[at], self.left[at])
+        after, turned = _runge_kutta(self.directions, self.place[at], self.sense[at], self.field, size)
+        blocked, left_domain = self._blocked(at, after, size)
+        smaller = left_domain & (size > SMALLEST_STEP * self.limits.step)
+        self.size[at[smaller]] *= 0.5
+        for k in np.flatnonzero(blocked & ~smaller):
+            self._end(at[k], Stop.BOUNDARY if left_domain[k] else
+                      Stop.SINGULARITY if self.lost[at[k]] <= self.limits.patch else Stop.PARABOLIC)
+        goes = at[~blocked]
+        taken = ~blocked
+        self.path.append((goes, size[taken], after[taken], turned[taken]))
+        self.place[goes], self.sense[goes] = after[taken], turned[taken]
+        self.left[goes] -= size[taken]
+        self._finish(goes)
+
+    def _blocked(self, at: np.ndarray, after: np.ndarray, size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        chart, limits = self.directions.chart, self.limits
+        one, mixed, two = chart.at(after).second
+        left_domain = ~(chart.inside(after) & np.isfinite(one))
+        self.lost[at] = np.where(mixed**2 > one * two, 0.0, self.lost[at] + size)
+        near = np.zeros(len(at), bool)
+        for hub in limits.hubs:
+            near |= np.abs(after - hub) < limits.near
+        return left_domain | near | (self.lost[at] > limits.patch), left_domain
+
+    def _finish(self, goes: np.ndarray) -> None:
+        """Ends curves that are as long as was asked for, or that have come back to their start."""
+        limits = self.limits
+        back = (np.abs(self.place[goes] - self.starts[goes]) < 0.6 * limits.step) \
+            & ((self.sense[goes] * np.conj(self.first[goes])).real > 0.9)
+        back &= limits.length - self.left[goes] > FEWEST_BEFORE_CLOSING * limits.step
+        for k in goes[back]:
+            self._end(k, Stop.CLOSED)
+        for k in goes[(self.left[goes] < 1e-9 * limits.step) & ~back]:
+            self._end(k, Stop.LENGTH)
+
+    def _end(self, curve: int, stop: Stop) -> None:
+        self.active[curve], self.stop[curve] = False, stop
+
+    def leaves(self) -> tuple[Leaf, ...]:
+        """The curves, with cubics between their steps."""
+        owner = np.concatenate([step[0] for step in self.path])
+        size, after, turned = (np.concatenate([step[k] for step in self.path]) for k in (1, 2, 3))
+        lines = []
+        for curve, start in enumerate(self.starts):
+            mine = owner == curve
+            lines.append(_cubic(np.concatenate([[start], after[mine]]), np.concatenate([[self.first[curve]], turned[mine]]),
+                                size[mine]))
+        positions = self.directions.chart.positions(np.concatenate(lines))
+        parts = np.split(positions, np.cumsum([len(line) for line in lines])[:-1])
+        return tuple(Leaf(line, part, stop or Stop.LENGTH) for line, part, stop in zip(lines, parts, self.stop, strict=True))
+
+
+def _runge_kutta(directions: Directions, place: np.ndarray, sense: np.ndarray, field: Field,
+                 step: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    one = sense
     two = directions.at(place + 0.5 * step * one, one, field)
     three = directions.at(place + 0.5 * step * two, two, field)
     four = directions.at(place + step * three, three, field)
-    return place + step / 6 * (one + 2 * two + 2 * three + four), four
+    after = place + step / 6 * (one + 2 * two + 2 * three + four)
+    return after, directions.at(after, four, field)
 
 
-def _ended(chart: Chart, after: np.ndarray, lost: np.ndarray, at: np.ndarray, limits: Limits) -> np.ndarray:
-    """Stops (N,) of curves that may not take a step, None for the others; `lost` counts lengths without directions."""
-    ended = np.full(len(after), None, object)
-    one, mixed, two = chart.at(after).second
-    lost[at] = np.where(mixed**2 <= one * two, lost[at] + limits.step, 0.0)
-    ended[lost[at] > limits.patch] = Stop.PARABOLIC
-    for hub in limits.hubs:
-        ended[np.abs(after - hub) < limits.near] = Stop.SINGULARITY
-    ended[~(chart.inside(after) & np.isfinite(one))] = Stop.BOUNDARY
-    return ended
+def _cubic(places: np.ndarray, tangents: np.ndarray, size: np.ndarray) -> np.ndarray:
+    """Hermite's cubics through places with unit tangents, sampled between."""
+    t = np.arange(BETWEEN) / BETWEEN
+    a, b = places[:-1, None], places[1:, None]
+    u, v = (tangents[:-1] * size)[:, None], (tangents[1:] * size)[:, None]
+    inner = (a * (1 + 2 * t) * (1 - t) ** 2 + u * t * (1 - t) ** 2 + b * t**2 * (3 - 2 * t) - v * t**2 * (1 - t))
+    return np.append(inner.ravel(), places[-1])
 
 
-def _leaves(chart: Chart, lines: list[np.ndarray], stops: np.ndarray) -> tuple[Leaf, ...]:
-    positions = chart.at(np.concatenate(lines)).positions
-    parts = np.split(positions, np.cumsum([len(line) for line in lines])[:-1])
-    return tuple(Leaf(line, part, stop) for line, part, stop in zip(lines, parts, stops, strict=True))

@@ -1,0 +1,143 @@
+"""From a surface of negative curvature to upright pleats along its asymptotic curves (§2.6, Figs 18 and 22)."""
+
+from dataclasses import replace
+
+import msgspec
+import numpy as np
+
+from plisse.assess import assess, overlap_notes, spread
+from plisse.errors import Infeasible
+from plisse.geometry.chart import Chart, FormulaChart, GraphChart
+from plisse.geometry.denoised import denoised_graph
+from plisse.geometry.height_field import HeightField
+from plisse.geometry.mesh import ReferenceMesh
+from plisse.geometry.surface import Surface
+from plisse.geometry.vectors import dot, norm, unit
+from plisse.geometry.weierstrass import MinimalSurface
+from plisse.io.meshes import read_mesh
+from plisse.layout.asymptotic.feasibility import (
+    refuse_crowded_hubs,
+    refuse_domes,
+    refuse_positive_curvature,
+    refuse_twist,
+)
+from plisse.layout.asymptotic.pattern import AsymptoticLayout, Sizes, lay_out
+from plisse.layout.coverage import AreaSamples, covered
+from plisse.measure.mid_surface import mid_surface_deviation
+from plisse.outcomes import broken_down
+from plisse.recipe import AsymptoticDesign, AsymptoticSurface
+from plisse.reconstruction import deviation_of
+from plisse.result import Report, Result
+from plisse.solve.cutting import best_cut
+from plisse.solve.flatten import flatten
+from plisse.solve.raising import Raised, finer, raised
+from plisse.solve.workspace import Workspace
+from plisse.stopwatch import Stopwatch
+from plisse.structure.pleated import PleatedStructure
+
+__all__ = ["along_asymptotic_curves"]
+
+COARSE = 12  # columns along a leg with which a structure is sought
+CELLS = 60  # of the mesh that stands for a formula
+TALLEST = 10.0  # amplitudes: pleats over higher surfaces seldom become exact
+
+
+def along_asymptotic_curves(recipe: AsymptoticDesign, watch: Stopwatch, workspace: Workspace) -> Result:
+    """The structure that a recipe asks for, or the reasons why there is none."""
+    pattern = recipe.pattern
+    rounds = max(0, int(np.ceil(np.log2(pattern.columns / COARSE))))
+    sizes = Sizes(pattern.creases, round(pattern.columns / 2**rounds), pattern.width, pattern.reach, pattern.hub_size)
+    watch.start("surface", 0.0)
+    try:
+        chart, mesh, surface = _surface(recipe.surface)
+        watch.start("layout", 0.05)
+        layout = _laid_out(chart, recipe, sizes)
+        amplitude = 0.5 * layout.width if pattern.amplitude is None else pattern.amplitude
+        refuse_twist(layout, amplitude)
+    except Infeasible as error:
+        return broken_down(recipe, [str(error)], watch)
+    watch.start("solve", 0.3)
+    found, tried = raised(layout, amplitude, workspace)
+    found, done = finer(found, rounds, workspace) if found.is_sound else (found, 0)
+    watch.start("flatten", 0.7)
+    structure = PleatedStructure(found.zigzag.topology, found.solved.vertices)
+    structure = flatten(structure, best_cut(structure))
+    watch.start("measure", 0.85)
+    report = assess(structure, units=recipe.units)
+    reasons = [*_unfinished(found, amplitude), *report.reasons]
+    notes = [f"the columns were doubled {done} of {rounds} times: with more the structure is not regular any more"] \
+        if found.is_sound and done < rounds else []
+    report = msgspec.structs.replace(
+        report, status=report.status if reasons == report.reasons else "approximate", reasons=reasons, method=found.way.name,
+        iterations=found.solved.iterations, tried=tried, crease_deviation=_astray(found, amplitude), seconds=watch.stop(),
+        design=recipe.to_dict(), warnings=[*_about(found), *notes, *overlap_notes(report)])
+    return Result(recipe, _over(report, structure, mesh, surface, amplitude), structure=structure)
+
+
+def _surface(section: AsymptoticSurface) -> tuple[Chart, ReferenceMesh | None, Surface | None]:
+    """The chart of a surface section, and the mesh and surface that deviations are measured from, where there are any."""
+    if section.weierstrass is not None:
+        return MinimalSurface(section.weierstrass.g, section.weierstrass.f, section.x, section.y), None, None
+    if section.formula is not None:
+        field = HeightField(section.formula, section.x, section.y)
+        return FormulaChart(field), field.mesh(CELLS), field
+    assert section.file is not None
+    mesh = read_mesh(section.file)
+    graph = denoised_graph(mesh, section.smoothing)
+    return GraphChart(graph), mesh, graph
+
+
+def _laid_out(chart: Chart, recipe: AsymptoticDesign, sizes: Sizes) -> AsymptoticLayout:
+    """The layout with the columns it can have and consistent labels; without its polygons where they are cut out."""
+    refuse_positive_curvature(chart)
+    layout = lay_out(chart, recipe.surface.family, sizes)
+    refuse_crowded_hubs(layout)
+    refuse_domes(layout)
+    layout = layout.cut_along_legs()
+    _ = layout.labels
+    return replace(layout, hubs_cut=recipe.surface.hub == "cut")
+
+
+def _unfinished(found: Raised, amplitude: float) -> list[str]:
+    """Why a result is not what was asked for, beyond what is measured on it."""
+    out = []
+    if found.height < 1:
+        tall = float(np.ptp(found.layout.points @ unit(found.layout.normals.mean(axis=0)[None])[0])) / amplitude
+        out.append(f"the surface could be raised to {100 * found.height:.0f} % of its height only, which is {tall:.1f} amplitudes "
+                   f"(above {TALLEST:g} few patterns become exact); flatten it, or take a smaller part or a larger amplitude")
+    wrong = found.zigzag.against_labels(found.solved.vertices).sum()
+    if wrong:
+        out.append(f"{wrong} crease edges fold the other way than mountains and valleys were assigned; a larger amplitude or "
+                   "fewer creases help")
+    return out
+
+
+def _astray(found: Raised, amplitude: float):
+    """Distance of creases from those of the zigzag, sliding along them left out, in amplitudes."""
+    zigzag = found.zigzag
+    moved = found.solved.vertices - zigzag.vertices
+    along = np.zeros_like(moved)
+    for crease in zigzag.topology.creases:
+        along[crease.vertices] = np.gradient(zigzag.vertices[crease.vertices], axis=0)
+    along = unit(along)
+    return spread(norm(moved - dot(moved, along)[:, None] * along) / amplitude)
+
+
+def _about(found: Raised) -> list[str]:
+    """The singularities of a pattern, for its report."""
+    return [f"a singularity of index {single.index:g} at ({', '.join(f'{x:.4g}' for x in point)}), {single.sectors} sectors"
+            for single, point in zip(found.layout.hubs, found.layout.chart.positions(
+                np.array([single.place for single in found.layout.hubs], complex)), strict=True)]
+
+
+def _over(report: Report, structure: PleatedStructure, mesh: ReferenceMesh | None, surface: Surface | None,
+          amplitude: float) -> Report:
+    """The report with coverage and deviation, where there is a mesh to measure them on."""
+    if mesh is None or surface is None:
+        return report
+    quads, hubs = structure.topology.quads, structure.topology.hubs
+    fans = [hub[[0, k, k + 1, k + 2]] for hub in hubs for k in range(1, len(hub) - 2, 2)]
+    coverage = covered(AreaSamples.of(mesh.vertices, mesh.triangles), structure.vertices,
+                       np.concatenate([quads, np.array(fans, int).reshape(-1, 4)]), 3 * amplitude + 3 * structure.mean_edge)
+    deviation = mid_surface_deviation(surface, structure.vertices, quads)
+    return msgspec.structs.replace(report, coverage=coverage, deviation=deviation_of(deviation, mesh.diagonal, amplitude))

@@ -1,0 +1,150 @@
+"""`plisse study`: many variants of a design, on all cores or on a cluster."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from cyclopts import Parameter
+
+if TYPE_CHECKING:
+    from plisse.study import Study
+
+__all__ = ["study"]
+
+LINE_EVERY = 60.0  # seconds
+
+
+def study(
+    study: Path | None = None,
+    /,
+    *,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    scheduler: str | None = None,
+    workers: Annotated[int | None, Parameter()] = None,
+    retry: Annotated[bool, Parameter(negative=())] = False,
+    best: int | None = None,
+    by: Literal["regularity", "deviation", "opening", "sheet_area"] | None = None,
+    json: Annotated[bool, Parameter(negative=())] = False,
+    quiet: Annotated[bool, Parameter(negative=())] = False,
+) -> int:
+    """Make all designs of a study and map where they succeed; start it again to go on after an interruption.
+
+    Parameters
+    ----------
+    study
+        A study file (TOML): a base design, and the keys to vary.
+    output
+        Directory for the store, the table and the pictures; the study's name if left out.
+    scheduler
+        Address of a running Dask scheduler, for example tcp://10.0.0.1:8786.
+    workers
+        How many designs are made at the same time on this machine; one per core if left out.
+    retry
+        Try designs again that took too long or too much memory, or failed.
+    best
+        Make nothing; copy so many of the best designs that are done to DIR/best, each with a picture.
+    by
+        What is best: regularity, deviation, opening or sheet_area.
+    json
+        Print the outcomes as JSON instead of a summary.
+    quiet
+        Print nothing.
+    """
+    from plisse.errors import PlisseError
+    from plisse.study import run
+
+    if workers is not None and workers < 1:
+        raise PlisseError(f"--workers is {workers}; give a number from 1")
+    if best is not None:
+        return _copy_best(study, output, best, by, json, quiet)
+    if study is None:
+        raise PlisseError("no study is named; give a study file (TOML)")
+    if by is not None:
+        raise PlisseError("--by says how --best chooses; give --best 10 as well")
+    directory = Path(study.stem) if output is None else output
+    try:
+        with _progress(quiet or json) as advance:
+            found = run(study, directory, scheduler=scheduler, workers=workers, retry=retry, progress=advance)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(f"interrupted; what is done is kept in {directory}, the same command goes on") from None
+    if json:
+        _print_json(found, [])
+    elif not quiet:
+        _summarise(found)
+    return 0 if found.counts.get("exact") else 3
+
+
+def _copy_best(study: Path | None, output: Path | None, count: int, by: str | None, json: bool, quiet: bool) -> int:
+    from plisse.cli.console import progress
+    from plisse.errors import PlisseError
+    from plisse.study import Study
+    from plisse.study.plan import read_plan
+
+    if count < 1:
+        raise PlisseError(f"--best is {count}; give a number from 1")
+    directory = Path(study.stem) if study is not None and output is None else output
+    if directory is None:
+        raise PlisseError("no study is named; give a study file, or its directory with -o")
+    by = by or (read_plan(study).by if study is not None else "regularity")
+    found = Study.load(directory)
+    if not found.best(1, by=by):
+        raise PlisseError(f"no design in {found.directory} is exact and has a {by.replace('_', ' ')}; widen the study")
+    with progress(quiet or json) as advance:
+        files = found.write_best(count, by=by, progress=advance)
+    if json:
+        _print_json(found, files)
+    elif not quiet:
+        for file in files:
+            print(file)
+    return 0
+
+
+def _print_json(found: Study, files: list[Path]) -> None:
+    import msgspec
+
+    seconds = sum(row.seconds or 0.0 for row in found.rows)
+    told = {"directory": str(found.directory), "designs": len(found.rows), "outcomes": found.counts,
+            "seconds_of_designs": seconds, "best": [str(file) for file in files]}
+    print(msgspec.json.format(msgspec.json.encode(told)).decode())
+
+
+def _summarise(found: Study) -> None:
+    """Print the outcomes, the most frequent reasons of those that are not exact, and the files."""
+    from collections import Counter
+
+    from rich.console import Console
+    from rich.text import Text
+
+    from plisse.cli.console import STYLES
+
+    console = Console(highlight=False)
+    outcomes = [Text(f"{count} {status}", STYLES.get(status, "bold")) for status, count in found.counts.items()]
+    console.print(Text(f"{len(found.rows)} designs: ", "bold") + Text(", ").join(outcomes))
+    reasons = Counter((row.status, row.reasons[0]) for row in found.rows if row.reasons)
+    for (status, reason), count in reasons.most_common(5):
+        console.print(Text(f"· {count} {status}: {reason}"))
+    for file in sorted(file for file in found.directory.iterdir() if file.is_file() and not file.name.startswith(".")):
+        console.print(Text(str(file), "dim"))
+
+
+@contextmanager
+def _progress(quiet: bool) -> Iterator[Callable[[str, float], None]]:
+    """A bar on a terminal, a line a minute elsewhere: studies run overnight."""
+    import sys
+    from time import monotonic
+
+    from plisse.cli.console import progress
+
+    last = monotonic()
+
+    def line(stage: str, fraction: float) -> None:
+        nonlocal last
+        if not quiet and monotonic() - last > LINE_EVERY:
+            last = monotonic()
+            print(stage, file=sys.stderr, flush=True)
+
+    with progress(quiet) as bar:
+        yield bar if sys.stderr.isatty() else line

@@ -1,0 +1,152 @@
+"""Faces from two families of curves laid over each other: quads, and a polygon around every singularity (§2.6)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from plisse.errors import Infeasible
+from plisse.layout.asymptotic.curves import Leaf
+from plisse.layout.asymptotic.rays import as_line
+from plisse.structure.topology import Topology
+
+__all__ = ["Net", "overlay"]
+
+
+@dataclass(frozen=True, eq=False)
+class Net:
+    """Crossings of creases and columns, joined to faces: `places` (V,) in the plane, and on which curves they lie.
+
+    `crease` and `column` (V,) are numbers in `creases` and `columns`; `arc` (V,) is the length in space along the
+    crease, `across` (V,) the length in the plane along the column. `hubs` are the places that polygons surround.
+    """
+
+    creases: tuple[Leaf, ...]
+    columns: tuple[Leaf, ...]
+    hubs: tuple[complex, ...]
+    places: np.ndarray
+    crease: np.ndarray
+    column: np.ndarray
+    arc: np.ndarray
+    across: np.ndarray
+    topology: Topology
+
+
+def overlay(creases: list[Leaf], columns: list[Leaf], hubs: tuple[complex, ...]) -> Net:
+    """The net of the largest connected part whose cells have alternating sides: quads, and polygons around `hubs`.
+
+    Raises Infeasible where no such cells exist.
+    """
+    crease, column, places, on_crease, on_column = _crossings(creases, columns)
+    start, end, is_crease = _segments(crease, column, on_crease, on_column)
+    kept = _without_loose_ends(start, end, len(places))
+    cells = _cells(places, start[kept], end[kept], is_crease[kept])
+    quads, polygons = _alternating(places, *cells, hubs)
+    if not len(quads):
+        raise Infeasible("creases and columns do not cross in a single quad; give a smaller width, or more columns")
+    quads, polygons = _largest_part(quads, polygons, len(places))
+    used = np.unique(np.concatenate([quads.ravel(), *polygons]))
+    number = np.full(len(places), -1)
+    number[used] = np.arange(len(used))
+    topology = Topology(len(used), number[quads], tuple(number[polygon] for polygon in polygons))
+    return Net(tuple(creases), tuple(columns), hubs, places[used], crease[used], column[used], on_crease[used], on_column[used],
+               topology)
+
+
+def _crossings(creases: list[Leaf], columns: list[Leaf]):
+    """Crease, column, place, and lengths along both of every first crossing, as five arrays."""
+    lines, across = np.array([as_line(leaf) for leaf in creases]), np.array([as_line(leaf) for leaf in columns])
+    column, crease = shapely.STRtree(lines).query(across, predicate="intersects")
+    points = shapely.get_coordinates(shapely.centroid(_first_parts(shapely.intersection(lines[crease], across[column]))))
+    at = shapely.points(points)
+    on_crease = shapely.line_locate_point(lines[crease], at)
+    on_column = shapely.line_locate_point(across[column], at)
+    for number, leaf in enumerate(creases):
+        on = crease == number
+        plane = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(leaf.places)))])
+        on_crease[on] = np.interp(on_crease[on], plane, leaf.arc)
+    return crease, column, points[:, 0] + 1j * points[:, 1], on_crease, on_column
+
+
+def _first_parts(geometries: np.ndarray) -> np.ndarray:
+    return np.where(shapely.get_num_geometries(geometries) > 1, shapely.get_geometry(geometries, 0), geometries)
+
+
+def _segments(crease, column, on_crease, on_column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Start, end and kind of the edges between successive crossings, in both directions."""
+    starts, ends, kinds = [], [], []
+    for owner, along, kind in ((crease, on_crease, True), (column, on_column, False)):
+        order = np.lexsort((along, owner))
+        same = owner[order[:-1]] == owner[order[1:]]
+        a, b = order[:-1][same], order[1:][same]
+        starts += [a, b]
+        ends += [b, a]
+        kinds.append(np.full(2 * len(a), kind))
+    return np.concatenate(starts), np.concatenate(ends), np.concatenate(kinds)
+
+
+def _without_loose_ends(start: np.ndarray, end: np.ndarray, count: int) -> np.ndarray:
+    """Mask of the edges that remain when vertices with a single edge are taken away again and again."""
+    kept = np.ones(len(start), bool)
+    while True:
+        degree = np.bincount(start[kept], minlength=count)
+        loose = kept & ((degree[start] == 1) | (degree[end] == 1))
+        if not loose.any():
+            return kept
+        kept &= ~loose
+
+
+def _cells(places: np.ndarray, start: np.ndarray, end: np.ndarray, is_crease: np.ndarray):
+    """Vertex, kind of the edge that starts there, and cell number of every corner, in the order around the cells."""
+    angle = np.angle(places[end] - places[start])
+    around = np.lexsort((angle, start))
+    first = np.flatnonzero(np.r_[True, np.diff(start[around]) > 0])
+    before = np.arange(len(around)) - 1
+    before[first] = np.append(first[1:], len(around)) - 1
+    clockwise = np.empty(len(around), int)
+    clockwise[around] = around[before]
+    twin = _twins(start, end)
+    following = clockwise[twin]
+    cell = connected_components(coo_array((np.ones(len(following)), (np.arange(len(following)), following)),
+                                          shape=(len(following),) * 2), directed=False)[1]
+    return start, is_crease, following, cell
+
+
+def _twins(start: np.ndarray, end: np.ndarray) -> np.ndarray:
+    there, back = np.lexsort((end, start)), np.lexsort((start, end))
+    twin = np.empty(len(start), int)
+    twin[there] = back
+    return twin
+
+
+def _alternating(places: np.ndarray, vertex: np.ndarray, is_crease: np.ndarray, following: np.ndarray, cell: np.ndarray,
+                 hubs: tuple[complex, ...]) -> tuple[np.ndarray, list[np.ndarray]]:
+    """Quads (F, 4) that begin with a crease, and polygons around hubs."""
+    count = np.bincount(cell)
+    turned = np.bincount(cell, (np.conj(places[vertex]) * places[vertex[following]]).imag)
+    odd = np.bincount(cell, is_crease == is_crease[following])
+    good = (turned > 0) & (odd == 0)
+    first = np.flatnonzero(is_crease & good[cell] & (count[cell] == 4))
+    first = first[np.unique(cell[first], return_index=True)[1]]
+    quads = np.stack([vertex[first], vertex[a := following[first]], vertex[b := following[a]], vertex[following[b]]], axis=1)
+    polygons = []
+    for number in np.flatnonzero(good & (count > 4)):
+        corner = int(np.flatnonzero((cell == number) & is_crease)[0])
+        loop = []
+        for _ in range(count[number]):
+            loop.append(vertex[corner])
+            corner = following[corner]
+        outline = shapely.Polygon(np.column_stack([places[loop].real, places[loop].imag]))
+        if shapely.contains_xy(outline, [hub.real for hub in hubs], [hub.imag for hub in hubs]).any():
+            polygons.append(np.array(loop))
+    return quads, polygons
+
+
+def _largest_part(quads: np.ndarray, polygons: list[np.ndarray], count: int) -> tuple[np.ndarray, list[np.ndarray]]:
+    """The faces that hang together over edges with the most others."""
+    whole = Topology(count, quads, tuple(polygons))
+    piece = whole.piece_of_faces
+    kept = piece == np.argmax(np.bincount(piece))
+    return quads[kept[:len(quads)]], [polygon for polygon, stays in zip(polygons, kept[len(quads):], strict=True) if stays]

@@ -1,0 +1,173 @@
+"""Crease patterns along asymptotic curves, with or without singularities (§2.6, Figs 18 and 22)."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from plisse.errors import Infeasible
+from plisse.geometry.chart import Chart
+from plisse.layout.asymptotic.bends import Bends
+from plisse.layout.asymptotic.curves import Leaf, Limits, trace_both_ways
+from plisse.layout.asymptotic.directions import Directions
+from plisse.layout.asymptotic.labels import Labels, labelled
+from plisse.layout.asymptotic.legs import kept_columns
+from plisse.layout.asymptotic.overlay import Net, overlay
+from plisse.layout.asymptotic.rays import Ray, crossings, rays
+from plisse.layout.asymptotic.singularities import Singularity, singularities
+from plisse.layout.asymptotic.spacing import Spacing, evenly, spaced
+from plisse.structure.topology import Topology
+
+__all__ = ["AsymptoticLayout", "Sizes", "lay_out"]
+
+STEP = 1 / 50  # of the domain's diagonal
+PATCH = 0.5  # widths through which curves pass without asymptotic directions
+CIRCLE = 0.05  # of the distance of the first column, around a singularity
+FIRST_CREASE = 1.5  # widths from a singularity
+INNER = 0.55  # where a column is added in front of the first of a leg
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """What a layout is asked for: `creases` on every bisector, `width` apart, and `columns` on every leg.
+
+    Without singularity these are all creases and all columns. `hub` is the distance of the first column from a
+    singularity, `reach` that of the last; all lengths in space. What is None follows from the surface.
+    """
+
+    creases: int
+    columns: int
+    width: float | None = None
+    reach: float | None = None
+    hub: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class AsymptoticLayout:
+    """A net along asymptotic curves with all that it came from; `width` and `hub` as they were used.
+
+    With `hubs_cut` the polygons around singularities are no faces.
+    """
+
+    directions: Directions
+    hubs: tuple[Singularity, ...]
+    legs: tuple[Ray, ...]
+    bisectors: tuple[Ray, ...]
+    limits: Limits
+    width: float
+    hub: float
+    net: Net
+    hubs_cut: bool = False
+
+    @cached_property
+    def topology(self) -> Topology:
+        """The faces: those of the net, or its quads alone."""
+        whole = self.net.topology
+        return Topology(whole.vertex_count, whole.quads) if self.hubs_cut else whole
+
+    @property
+    def chart(self) -> Chart:
+        """The surface."""
+        return self.directions.chart
+
+    @cached_property
+    def points(self) -> np.ndarray:
+        """Feet (V, 3) of the vertices on the surface."""
+        return self.chart.positions(self.net.places)
+
+    @cached_property
+    def normals(self) -> np.ndarray:
+        """Unit normals (V, 3) of the surface."""
+        return self.chart.at(self.net.places).normals
+
+    @cached_property
+    def bends(self) -> Bends:
+        """How creases bend and twist."""
+        return Bends.of(self.net, self.chart)
+
+    @cached_property
+    def labels(self) -> Labels:
+        """Mountains and valleys; raises Infeasible where there are none that agree."""
+        return labelled(self.net, self.points, self.bends)
+
+    def cut_along_legs(self) -> "AsymptoticLayout":
+        """Without the columns that lie where creases hardly bend; the same where there are no legs.
+
+        Raises Infeasible where nothing is left.
+        """
+        if not self.legs:
+            return self
+        kept = kept_columns(self.net, self.points, self.bends, self.legs, self.bisectors)
+        return self._with_columns([leaf for leaf, stays in zip(self.net.columns, kept, strict=True) if stays])
+
+    def refined(self) -> "AsymptoticLayout":
+        """With a column between any two along the legs, and one more in front of the first."""
+        columns, new = list(self.net.columns), list[Leaf]()
+        lines = [leg.leaf for leg in self.legs] if self.legs else [self._spine]
+        for number, line in enumerate(lines):
+            taken, added = np.sort(_finite(crossings(line, columns))), _finite(crossings(line, new))
+            marks = _finite(crossings(line, [ray.leaf for ray in self.bisectors
+                                             if not self.legs or ray.hub != self.legs[number].hub]))
+            ends = np.concatenate([[0.0], taken]) if self.legs else taken
+            arcs = []
+            for start, end in zip(ends[:-1], ends[1:], strict=True):
+                if not any(((other > start) & (other < end)).any() for other in (marks, added)):
+                    arcs.append(INNER * end if start == 0 and self.legs else 0.5 * (start + end))
+            new += trace_both_ways(self.directions, line.place_at(np.array(arcs)), "columns", self.limits)
+        return self._with_columns(columns + new)
+
+    @cached_property
+    def _spine(self) -> Leaf:
+        """The crease with most vertices: without legs, columns are counted along it."""
+        return self.net.creases[int(np.argmax(np.bincount(self.net.crease)))]
+
+    def _with_columns(self, columns: list[Leaf]) -> "AsymptoticLayout":
+        return replace(self, net=overlay(list(self.net.creases), columns, self.net.hubs))
+
+
+def lay_out(chart: Chart, family: int, sizes: Sizes) -> AsymptoticLayout:
+    """Creases along a family of asymptotic curves, 1 or 2, and columns orthogonal to them.
+
+    Raises Infeasible where singularities leave no room, or where the curves make no faces.
+    """
+    directions = Directions(chart, family)
+    low, high = chart.domain
+    hubs = singularities(chart)
+    limits = Limits(2 * abs(high - low), STEP * abs(high - low), np.inf)
+    return _around_hubs(directions, hubs, sizes, limits) if hubs else _regular(directions, sizes, limits)
+
+
+def _around_hubs(directions: Directions, hubs: tuple[Singularity, ...], sizes: Sizes, limits: Limits) -> AsymptoticLayout:
+    low, high = directions.chart.domain
+    radius = 1e-3 * abs(high - low)
+    legs = rays(directions, hubs, "creases", limits, radius)
+    bisectors = rays(directions, hubs, "columns", limits, radius)
+    room = min(ray.leaf.length for ray in bisectors)
+    width = room / (sizes.creases + FIRST_CREASE - 0.5) if sizes.width is None else sizes.width
+    if FIRST_CREASE * width > room:
+        raise Infeasible(f"the first creases, {FIRST_CREASE * width:.3g} from the singularity, leave the surface, which reaches "
+                         f"{room:.3g} from there; give a smaller pattern.width or a larger surface")
+    span = (sizes.creases + FIRST_CREASE - 1) * width
+    reach = min(max(ray.leaf.length for ray in legs), 1.2 * span) if sizes.reach is None else sizes.reach
+    hub = max(0.12 * reach, 0.5 * width) if sizes.hub is None else sizes.hub
+    gap = (reach - hub) / max(sizes.columns - 1, 1)
+    creases = spaced(directions, "creases", bisectors, legs, Spacing(FIRST_CREASE * width, width, span + 1e-9 * span), limits)
+    columns = spaced(directions, "columns", legs, bisectors, Spacing(hub, gap, reach + 1e-9 * reach), limits)
+    net = overlay(creases, columns, tuple(single.place for single in hubs))
+    return AsymptoticLayout(directions, hubs, legs, bisectors, limits, width, hub, net)
+
+
+def _regular(directions: Directions, sizes: Sizes, limits: Limits) -> AsymptoticLayout:
+    low, high = directions.chart.domain
+    middle = np.array([0.5 * (low + high)])
+    spine = trace_both_ways(directions, middle, "creases", limits)[0]
+    across = trace_both_ways(directions, middle, "columns", limits)[0]
+    width = across.length / (sizes.creases + 1) if sizes.width is None else sizes.width
+    reach = spine.length if sizes.reach is None else 2 * sizes.reach
+    creases = evenly(directions, "creases", across, sizes.creases, width, limits)
+    columns = evenly(directions, "columns", spine, sizes.columns, reach / (sizes.columns + 1), limits)
+    return AsymptoticLayout(directions, (), (), (), limits, width, 0.0, overlay(creases, columns, ()))
+
+
+def _finite(values: np.ndarray) -> np.ndarray:
+    return values[np.isfinite(values)]

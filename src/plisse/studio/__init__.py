@@ -1,0 +1,1 @@
+"""The studio: exact pleats under one's hand, in a browser."""

@@ -1,0 +1,146 @@
+"""What of a design can be set by a control: keys, words and limits, read from the types of the recipe."""
+
+import math
+import tomllib
+from dataclasses import dataclass
+from typing import Literal
+
+import msgspec
+from msgspec import inspect
+
+from plisse.errors import InvalidDesign
+from plisse.io.toml import toml_text
+from plisse.recipe import Design, SurfaceDesign
+
+__all__ = ["Field", "fields_of", "value_of_text"]
+
+WORDS = {
+    "pattern.theta": ("inclination θ", "°"), "pattern.creases": ("creases", ""), "pattern.width": ("width", "unit"),
+    "pattern.amplitude": ("amplitude", "unit"), "pattern.samples": ("samples per crease", ""),
+    "pattern.smoothing": ("smoothing of binormals", ""), "solve.principal": ("principal (folds flat)", ""),
+    "solve.cut": ("cut of the sheet", "%"), "curve.radius": ("radius", "unit"), "curve.pitch": ("pitch", "unit"),
+    "curve.turns": ("turns", ""), "curve.angle": ("angle", "°"), "curve.a": ("half axis a", "unit"),
+    "curve.b": ("half axis b", "unit"), "curve.R": ("radius R", "unit"), "curve.r": ("tube radius r", "unit"),
+    "curve.closed": ("closed curve", ""), "march.distance": ("distance of creases", "unit"),
+    "march.direction": ("direction", "°"), "march.fold": ("fold angle", "°"), "march.opening": ("opening of the seed", "°"),
+    "march.turn": ("turn", "°"), "closed_form.sector": ("sector", "°"), "closed_form.fold": ("fold angle", "°"),
+    "closed_form.slope": ("slope", ""), "surface.overhang": ("pleats may overhang", ""),
+    "surface.boundary": ("keep the boundary", ""),
+}
+SECTIONS = ("pattern", "march", "closed_form", "curve", "surface", "strips", "parallel", "solve")
+LEFT_OUT = {"curve.points", "curve.file", "surface.file", "surface.height", "surface.radius", "surface.torus", "surface.x",
+            "surface.y", "surface.guide", "surface.guide_file", "surface.handles", "surface.edited_file", "solve.weights",
+            "solve.iterations", "surface.guide_section", "parallel.moves"}
+LISTED = ("pattern.theta", "pattern.width")
+NARROW, MOST_CREASES, FARTHEST = 10.0, 40, 1e9
+
+
+@dataclass(frozen=True)
+class Field:
+    """A control: `key` as `plisse.Session.update` takes it, its label, kind, value and limits."""
+
+    key: str
+    label: str
+    kind: Literal["slider", "whole", "number", "switch", "choice", "list"]
+    value: object
+    low: float | None = None
+    high: float | None = None
+    step: float | None = None
+    choices: tuple[str, ...] = ()
+
+    @property
+    def section(self) -> str:
+        """The section of the design that it belongs to."""
+        return self.key.partition(".")[0]
+
+
+def fields_of(recipe: Design | SurfaceDesign) -> list[Field]:
+    """All controls for a recipe, section by section; keys that are not set and have no default are left out."""
+    found = []
+    for section in SECTIONS:
+        struct = getattr(recipe, section, None)
+        if struct is None:
+            continue
+        info = inspect.type_info(type(struct))
+        assert isinstance(info, inspect.StructType)
+        for entry in info.fields:
+            key, value = f"{section}.{entry.name}", getattr(struct, entry.name)
+            if key not in LEFT_OUT and value is not None and not isinstance(value, msgspec.Struct):
+                field = _field(key, value, entry.type, recipe.units)
+                found += [] if field is None else [field]
+                if field is not None and field.kind == "slider" and key in LISTED:
+                    found.append(_field(key, [value], entry.type, recipe.units))
+    return [field for field in found if field is not None]
+
+
+def value_of_text(text: str) -> object:
+    """The value that a text means in TOML, numbers and lists only; raises InvalidDesign for anything else."""
+    try:
+        value = tomllib.loads(f"value = {' '.join(text.split())}")["value"]
+    except (tomllib.TOMLDecodeError, RecursionError):
+        value = None
+    if isinstance(value, bool) or not isinstance(value, int | float | list):
+        raise InvalidDesign(f"{text[:60]!r} is neither a number nor a list; give for example 30 or [30, 35, 40]")
+    return value
+
+
+def _field(key: str, value, kind: inspect.Type, units: str) -> Field | None:
+    name = key.partition(".")[2].replace("_", " ")
+    words, unit = WORDS.get(key, (name, ""))
+    unit = units if unit == "unit" else unit
+    label = f"{words} ({unit})" if unit else words
+    if isinstance(value, bool):
+        return Field(key, label, "switch", value)
+    if isinstance(value, str):
+        choices = _choices(kind)
+        return Field(key, label, "choice", value, choices=choices) if choices else None
+    if isinstance(value, list | tuple):
+        shown = value[0] if len(value) == 1 else value
+        return Field(key, f"{label}, one by one", "list", toml_text({"v": shown}).partition(" = ")[2].strip())
+    return _number(key, label, value, kind)
+
+
+def _number(key: str, label: str, value: float, kind: inspect.Type) -> Field:
+    low, high = _limits(kind)
+    if isinstance(value, int) and _is_whole(kind):
+        if key.endswith(".samples"):
+            return Field(key, label, "number", value, low, high, 1)
+        return Field(key, label, "whole", value, low, max(MOST_CREASES, 2 * value), 1)
+    value = float(value)
+    if "°" not in label and value != 0 and high - low > NARROW * abs(value):
+        most = 4 * abs(value)
+        low, high = max(low, abs(value) / 4 if low > 0 else -most), min(high, most)
+    return Field(key, label, "slider", value, low, high, _step(high - low))
+
+
+def _step(span: float) -> float:
+    """A round step of about a five-hundredth of the span."""
+    power = 10.0 ** math.floor(math.log10(span / 500))
+    return next(power * step for step in (1, 2, 5, 10) if power * step >= span / 500)
+
+
+def _parts(kind: inspect.Type) -> list[inspect.Type]:
+    if isinstance(kind, inspect.Metadata):
+        return _parts(kind.type)
+    return [part for entry in kind.types for part in _parts(entry)] if isinstance(kind, inspect.UnionType) else [kind]
+
+
+def _is_whole(kind: inspect.Type) -> bool:
+    parts = _parts(kind)
+    return any(isinstance(part, inspect.IntType) for part in parts) \
+        and not any(isinstance(part, inspect.FloatType) for part in parts)
+
+
+def _limits(kind: inspect.Type) -> tuple[float, float]:
+    """Smallest and largest number that the type allows, a little inside of limits that are excluded."""
+    for part in _parts(kind):
+        if isinstance(part, inspect.FloatType | inspect.IntType):
+            low, high = (part.gt if part.ge is None else part.ge), (part.lt if part.le is None else part.le)
+            least, most = -FARTHEST if low is None else float(low), FARTHEST if high is None else float(high)
+            inside = min(0.5, 0.005 * (most - least))
+            return least + inside * (part.gt is not None), most - inside * (part.lt is not None)
+    return -FARTHEST, FARTHEST
+
+
+def _choices(kind: inspect.Type) -> tuple[str, ...]:
+    return tuple(str(value) for part in _parts(kind) if isinstance(part, inspect.LiteralType) for value in part.values)

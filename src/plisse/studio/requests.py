@@ -1,0 +1,204 @@
+"""What a client can ask of its process; every request is one or two calls of the library, as a script would make them."""
+
+from dataclasses import dataclass
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+
+from plisse.draw.camera import best_view
+from plisse.draw.colour_maps import colour_maps, deviation_of
+from plisse.draw.plates import plates_mesh
+from plisse.errors import InvalidStructure
+from plisse.geometry.curves import seed_curve
+from plisse.recipe import MILLIMETRES, Design, SurfaceDesign
+from plisse.result import Report, Result
+from plisse.structure.front import front_up
+from plisse.structure.place import vertex_named
+from plisse.structure.pleated import PleatedStructure
+from plisse.studio.bench import Bench, Progress, required
+from plisse.studio.view import Tint, View, flat_view, folded_view, tinted
+from plisse.transform.collisions import FreeRange
+from plisse.transform.offset import offset_range
+
+__all__ = ["Candidates", "Colour", "Fetch", "Found", "Pose", "Reach", "Request", "Solid", "Solve"]
+
+Recipe = Design | SurfaceDesign
+CURVE_POINTS = 400
+
+
+class Request:
+    """A question with the seconds it may take; a newer one of the same `lane` makes it stale."""
+
+    lane: ClassVar[str]
+    limit: ClassVar[float] = 30.0
+
+    def run(self, bench: Bench, progress: Progress) -> Any:
+        """The answer; errors that plisse foresees are raised."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """What a solved design looks like, and the report that proves it.
+
+    `trouble` (3,) is the place of the first problem that the report names, `overlap` (2,) that on the sheet; `seed` (N, 3)
+    is the curve the design starts from, `axes` (3, 3) the camera that shows most. `drafted` designs have fewer samples than
+    asked for.
+    """
+
+    report: Report
+    drafted: bool
+    folded: View | None = None
+    sheet: View | None = None
+    seed: np.ndarray | None = None
+    trouble: np.ndarray | None = None
+    overlap: np.ndarray | None = None
+    axes: np.ndarray | None = None
+    reference: tuple[np.ndarray, np.ndarray] | None = None
+
+
+@dataclass(frozen=True)
+class Solve(Request):
+    """The structure of a recipe; `framed` asks for a camera as well."""
+
+    lane: ClassVar[str] = "solve"
+    limit: ClassVar[float] = 300.0
+    recipe: Recipe
+    framed: bool = False
+    drafted: bool = False
+
+    def run(self, bench: Bench, progress: Progress) -> Found:
+        """Everything the scene needs."""
+        result = bench.result(self.recipe, progress)
+        structure, report = result.structure, result.report
+        found = {"seed": _seed(self.recipe), "reference": _reference(result)}
+        if structure is None:
+            return Found(report, self.drafted, **found)
+        if structure.development is not None:
+            found["sheet"] = flat_view(structure)
+        if report.development is not None and report.development.overlap_at_mm is not None:
+            found["overlap"] = _overlap(structure, report)
+        if self.framed:
+            found["axes"] = best_view(structure).axes
+        return Found(report, self.drafted, folded=folded_view(structure), trouble=_trouble(structure, report), **found)
+
+
+@dataclass(frozen=True)
+class Pose(Request):
+    """A state of the motion: 0 flat, 100 as designed, 200 folded flat."""
+
+    lane: ClassVar[str] = "pose"
+    recipe: Recipe
+    percent: float
+
+    def run(self, bench: Bench, progress: Progress) -> View:
+        """The state as a view; raises InvalidStructure for structures that are not principal."""
+        motion = bench.motion(self.recipe).at(self.percent)
+        return folded_view(motion.structures[0])
+
+
+@dataclass(frozen=True)
+class Colour(Request):
+    """A colour map of a structure by name."""
+
+    lane: ClassVar[str] = "colour"
+    recipe: Recipe
+    name: str
+
+    def run(self, bench: Bench, progress: Progress) -> Tint:
+        """The coloured faces; raises InvalidStructure where the structure has no such map."""
+        result = bench.result(self.recipe)
+        maps = colour_maps(required(result), deviation_of(result))
+        if self.name not in maps:
+            raise InvalidStructure(f"there is no colour map {self.name} for this structure; it has {', '.join(maps)}")
+        return tinted(required(result), maps[self.name])
+
+
+@dataclass(frozen=True)
+class Solid(Request):
+    """Plates of a thickness, or the offset at a distance, instead of the structure; lengths are in model units."""
+
+    lane: ClassVar[str] = "solid"
+    recipe: Recipe
+    kind: Literal["plates", "offset"]
+    length: float
+
+    def run(self, bench: Bench, progress: Progress) -> View:
+        """The view of them; raises InvalidStructure or InvalidDesign where they do not exist."""
+        structure = required(bench.result(self.recipe))
+        if self.kind == "offset":
+            return folded_view(structure.offset(self.length))
+        return folded_view(plates_mesh(structure.plates(self.length)))
+
+
+@dataclass(frozen=True)
+class Fetch(Request):
+    """The whole result, as another process or a download needs it."""
+
+    lane: ClassVar[str] = "fetch"
+    limit: ClassVar[float] = 300.0
+    recipe: Recipe
+
+    def run(self, bench: Bench, progress: Progress) -> Result:
+        """The result."""
+        return bench.result(self.recipe)
+
+
+@dataclass(frozen=True)
+class Reach(Request):
+    """How far a structure moves, and how far it can be offset to both sides."""
+
+    lane: ClassVar[str] = "reach"
+    limit: ClassVar[float] = 120.0
+    structure: PleatedStructure
+
+    def run(self, bench: Bench, progress: Progress) -> tuple[FreeRange, tuple[float, float]]:
+        """The free range of the motion in percent and the offset distances in model units."""
+        return self.structure.flex(100).free_range, offset_range(self.structure)
+
+
+@dataclass(frozen=True)
+class Candidates(Request):
+    """Automatic layouts over a surface, all of them as one picture and each as a design."""
+
+    lane: ClassVar[str] = "candidates"
+    limit: ClassVar[float] = 300.0
+    recipe: SurfaceDesign
+    count: int = 6
+
+    def run(self, bench: Bench, progress: Progress) -> "tuple[bytes, list[tuple[str, dict]]]":
+        """PNG bytes, and for every candidate what it says and the changes that make it the design."""
+        from plisse.studio.candidates import candidates_of
+
+        return candidates_of(self.recipe, self.count, progress)
+
+
+def _seed(recipe: Recipe) -> np.ndarray | None:
+    curve = getattr(recipe, "curve", None)
+    if curve is None:
+        return None
+    points = seed_curve(curve, CURVE_POINTS)
+    return np.concatenate([points, points[:1]]) if curve.closed else points
+
+
+def _reference(result: Result) -> tuple[np.ndarray, np.ndarray] | None:
+    mesh = result.overlay.mesh if result.overlay is not None else result.surface
+    return None if mesh is None else (mesh.vertices.astype(np.float32), mesh.triangles.astype(np.uint32))
+
+
+def _trouble(structure: PleatedStructure, report: Report) -> np.ndarray | None:
+    """Where the first sentence that names a place points to."""
+    for sentence in [*report.reasons, *report.warnings]:
+        vertex = vertex_named(structure.topology, sentence)
+        if vertex is not None:
+            return structure.vertices[vertex]
+    return None
+
+
+def _overlap(structure: PleatedStructure, report: Report) -> np.ndarray:
+    """The place where the sheet overlaps, in the frame of its view."""
+    assert report.development is not None
+    assert structure.development is not None
+    place = np.array(report.development.overlap_at_mm) / MILLIMETRES[report.units]
+    mirrored = not np.shares_memory(front_up(structure), structure.development)
+    return place * [-1.0, 1.0] if mirrored else place

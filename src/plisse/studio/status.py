@@ -1,0 +1,66 @@
+"""The words that always stand on screen: status, the report's sentences, the numbers that matter."""
+
+from html import escape
+
+from plisse.result import Report
+from plisse.studio.requests import Found
+
+__all__ = ["failure_html", "numbers_of", "status_html", "working_html"]
+
+MARKS = {"exact": ("✔", "#1f6b4a"), "approximate": ("≈", "#8a5a00"), "infeasible": ("✖", "#9b2f24"), "draft": ("…", "#4d463f")}
+STYLE = "font-size:0.86em;line-height:1.35;padding:0.3em 0.7em"
+MOST_SENTENCES = 6
+
+
+def status_html(found: Found, title: str) -> str:
+    """Status, numbers and sentences of a solved design; those of a draft say that they are of a draft."""
+    report = found.report
+    status = "draft" if found.drafted else report.status
+    rows = "".join(f"<tr><td style='opacity:0.75;padding-right:1em'>{escape(name)}</td><td>{escape(value)}</td></tr>"
+                   for name, value in numbers_of(report))
+    sentences = [*report.reasons, *report.warnings]
+    more = [f"and {len(sentences) - MOST_SENTENCES} more; the report has them all"] * (len(sentences) > MOST_SENTENCES)
+    listed = "".join(f"<li>{escape(sentence)}</li>" for sentence in sentences[:MOST_SENTENCES] + more)
+    note = f"coarse while you pull: {report.vertices:,} vertices" if found.drafted else title
+    return (f"<div role='status' aria-live='polite' style='{STYLE}'>{_badge(status)} <span>{escape(note)}</span>"
+            f"<table style='font-variant-numeric:tabular-nums'>{rows}</table>"
+            f"<ul style='margin:0.3em 0;padding-left:1.2em'>{listed}</ul></div>")
+
+
+def failure_html(sentence: str) -> str:
+    """A request that came to nothing."""
+    return (f"<div role='alert' style='{STYLE}'>{_badge('infeasible', 'not done')} {escape(sentence)}</div>")
+
+
+def working_html(stage: str, fraction: float) -> str:
+    """What is being done."""
+    return f"<div role='status' style='{STYLE}'>{_badge('draft', 'working')} {escape(stage)} ({100 * fraction:.0f} %)</div>"
+
+
+def numbers_of(report: Report) -> list[tuple[str, str]]:
+    """Names and values of the numbers that matter."""
+    rows = [("vertices, faces", f"{report.vertices:,}, {report.faces:,}")]
+    for name, spread in (("planarity", report.planarity), ("angle sum", report.angle_defect),
+                         ("principal defect", report.principal_defect)):
+        if spread is not None:
+            rows.append((name, f"{spread.max:.1e} at most"))
+    if report.min_sector_angle_deg is not None:
+        rows.append(("smallest sector", f"{report.min_sector_angle_deg:.1f}°"))
+    if report.opening_angle_deg is not None:
+        rows.append(("openings", f"{report.opening_angle_deg.min:.1f}° to {report.opening_angle_deg.max:.1f}°"))
+    if report.development is not None:
+        width, height = report.development.size_mm
+        rows.append(("sheet", f"{width:.0f} × {height:.0f} mm" + ", overlaps itself" * report.development.overlaps))
+    if report.coverage is not None:
+        rows.append(("coverage", f"{100 * report.coverage:.1f} %"))
+    if report.deviation is not None:
+        rows.append(("deviation", f"{report.deviation.mean_amplitudes:.2f} amplitudes on average"))
+    if "total" in report.seconds:
+        rows.append(("solved in", f"{1000 * report.seconds['total']:.0f} ms"))
+    return rows
+
+
+def _badge(status: str, word: str = "") -> str:
+    mark, colour = MARKS[status]
+    return (f"<span id='plisse-status' style='background:{colour};color:white;border-radius:0.3em;padding:0.1em 0.5em'>"
+            f"{mark} {word or status}</span>")

@@ -1,0 +1,91 @@
+"""What a browser shows of a structure: paper that is smooth across rulings and breaks at creases, and its lines."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from plisse.draw.colour_maps import ColourMap
+from plisse.draw.corners import corner_triangles
+from plisse.measure.folds import assignments
+from plisse.structure.front import front_up
+from plisse.structure.pleated import PleatedStructure
+from plisse.structure.topology import Topology
+
+__all__ = ["Tint", "View", "flat_view", "folded_view", "tinted"]
+
+LETTERS = {"mountain": "M", "valley": "V", "flat": "F", "boundary": "B"}
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """Triangles (T, 3) over points (N, 3), which are doubled along creases, and lines (S, 2, 3) by name."""
+
+    points: np.ndarray
+    triangles: np.ndarray
+    lines: dict[str, np.ndarray]
+
+
+@dataclass(frozen=True, eq=False)
+class Tint:
+    """Colours (N, 3) in 0…255 of points (N, 3) of triangles (T, 3), the map's title, and its scale.
+
+    `ticks` are positions in 0…1 with their labels, `bar` (K, 3) the colours from one end to the other.
+    """
+
+    points: np.ndarray
+    triangles: np.ndarray
+    colours: np.ndarray
+    title: str
+    ticks: list[tuple[float, str]]
+    bar: np.ndarray
+
+
+def folded_view(structure: PleatedStructure) -> View:
+    """The structure in space, as float32."""
+    letters = assignments(structure.topology, structure.vertices)
+    return _view(structure.topology, structure.vertices, letters)
+
+
+def flat_view(structure: PleatedStructure) -> View:
+    """The development in the plane z = 0, front side up, with the mountains and valleys of the folded state."""
+    opened = structure.opened
+    flat = front_up(structure)
+    letters = assignments(opened.topology, opened.vertices)
+    return _view(opened.topology, np.column_stack([flat, np.zeros(len(flat))]), letters)
+
+
+def tinted(structure: PleatedStructure, colour: ColourMap) -> Tint:
+    """The structure coloured by a map, every face on its own."""
+    corners = structure.topology.corners
+    shades = np.linspace(0, 1, 32)
+    scale = colour.scale
+    low, high = np.log10([scale.low, scale.high]) if scale.logarithmic else (scale.low, scale.high)
+    values = low + shades * (high - low)
+    bar = colour.colours(10**values if scale.logarithmic else values)
+    return Tint(structure.vertices[corners.vertex].astype(np.float32), corner_triangles(structure.topology).astype(np.uint32),
+                _bytes(colour.colours(colour.values)), colour.title, scale.ticks(), _bytes(bar))
+
+
+def _view(topology: Topology, points: np.ndarray, letters: np.ndarray) -> View:
+    corners, edges = topology.corners, topology.edges
+    key = _strips(topology)[corners.face] * topology.vertex_count + corners.vertex
+    used, place = np.unique(key, return_inverse=True)
+    paper = points[used % topology.vertex_count]
+    letters = np.where(edges.is_crease | edges.is_boundary, letters, "R")
+    lines = {name: points[edges.vertices[letters == letter]].astype(np.float32) for name, letter in LETTERS.items()}
+    lines["ruling"] = points[edges.vertices[letters == "R"]].astype(np.float32)
+    return View(paper.astype(np.float32), place[corner_triangles(topology)].astype(np.uint32), lines)
+
+
+def _strips(topology: Topology) -> np.ndarray:
+    """Number (F,) of the strip that every face belongs to: faces hang together over rulings."""
+    edges = topology.edges
+    pairs = edges.faces[~edges.is_crease & ~edges.is_boundary]
+    links = coo_array((np.ones(len(pairs)), pairs.T), shape=(topology.face_count,) * 2)
+    return connected_components(links, directed=False)[1].astype(np.int64)
+
+
+def _bytes(colours: np.ndarray) -> np.ndarray:
+    return np.round(255 * np.clip(colours, 0, 1)).astype(np.uint8)

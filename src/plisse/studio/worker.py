@@ -1,0 +1,174 @@
+"""Requests of one client, answered outside of the server's process: the newest wins, a crash ends one request only."""
+
+import os
+import pickle
+import queue
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from time import monotonic
+
+from plisse.studio.child import Answer, Failure, Stage
+from plisse.studio.requests import Request
+
+__all__ = ["Worker"]
+
+PATIENCE = 2.0  # seconds that a stale request may still take before its process is ended
+START = 60.0
+THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
+COMMAND = "import sys; from plisse.studio.child import main; main()"
+
+Deliver = Callable[[Request, Answer | Failure | Stage], None]
+
+
+class Worker:
+    """A thread that hands requests to a process and delivers its answers.
+
+    Of every lane only the newest request is kept; the running one is dropped when a newer one of its lane comes, and its
+    process is ended where it does not listen. `deliver` is called from the thread, never for stale requests.
+    """
+
+    def __init__(self, deliver: Deliver):
+        self._deliver = deliver
+        self._waiting: dict[str, tuple[int, Request]] = {}
+        self._changed = threading.Condition()
+        self._count = 0
+        self._closed = False
+        self._process: _Process | None = None
+        self._thread = threading.Thread(target=self._work, name="plisse-studio-worker", daemon=True)
+        self._thread.start()
+
+    def ask(self, request: Request) -> None:
+        """Ask for something; an older question of its lane is forgotten."""
+        with self._changed:
+            self._count += 1
+            self._waiting.pop(request.lane, None)
+            self._waiting[request.lane] = (self._count, request)
+            self._changed.notify()
+
+    def forget(self, lane: str) -> None:
+        """Take a waiting question back."""
+        with self._changed:
+            self._waiting.pop(lane, None)
+
+    @property
+    def pid(self) -> int | None:
+        """Number of the process, None while there is none."""
+        process = self._process
+        return None if process is None else process.pid
+
+    def close(self) -> None:
+        """End the process and the thread; nothing is delivered any more."""
+        with self._changed:
+            self._closed = True
+            self._waiting.clear()
+            self._changed.notify()
+        process = self._process
+        if process is not None:
+            process.end()
+        self._thread.join(timeout=5)
+
+    def _work(self) -> None:
+        while (entry := self._next()) is not None:
+            number, request = entry
+            outcome = self._outcome(number, request)
+            if outcome is not None and not self._closed and not self._is_stale(request):
+                self._deliver(request, outcome)
+
+    def _next(self) -> tuple[int, Request] | None:
+        """The request that has waited longest; blocks until there is one, None when closed."""
+        with self._changed:
+            self._changed.wait_for(lambda: self._waiting or self._closed)
+            if self._closed:
+                return None
+            return self._waiting.pop(next(iter(self._waiting)))
+
+    def _is_stale(self, request: Request) -> bool:
+        return request.lane in self._waiting
+
+    def _outcome(self, number: int, request: Request) -> Answer | Failure | None:
+        """What the request came to; None where it was dropped."""
+        if self._process is None or not self._process.is_alive:
+            self._process = _Process()
+        process, begun, told = self._process, monotonic(), False
+        process.send(number, request)
+        while True:
+            message = process.received(0.02)
+            if isinstance(message, Stage) and message.number == number and not self._is_stale(request):
+                self._deliver(request, message)
+            elif isinstance(message, Answer | Failure) and message.number == number:
+                return None if isinstance(message, Answer) and message.value is None else message
+            if self._closed:
+                return None
+            if message is None and not process.is_alive:
+                self._process = None
+                return Failure(number, f"solving ended its process (code {process.end()}); take the last step back, or try "
+                                       "something smaller")
+            if self._is_stale(request) and not told:
+                process.send(number, None)
+                told = True
+            seconds = monotonic() - begun
+            if seconds > (PATIENCE if self._is_stale(request) else request.limit + START * process.is_new):
+                process.end()
+                self._process = None
+                return None if self._is_stale(request) else Failure(
+                    number, f"this took longer than {request.limit:.0f} seconds and was ended; try something smaller")
+
+
+class _Process:
+    """A process that answers, and the thread that listens to it."""
+
+    def __init__(self):
+        self._popen = subprocess.Popen([sys.executable, "-c", COMMAND], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                       env={**os.environ, **dict.fromkeys(THREADS, "1")})
+        self._messages: queue.SimpleQueue = queue.SimpleQueue()
+        self._ended = threading.Event()
+        self.is_new = True
+        threading.Thread(target=self._listen, name="plisse-studio-listener", daemon=True).start()
+
+    @property
+    def pid(self) -> int:
+        return self._popen.pid
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether answers may still come."""
+        return not self._ended.is_set()
+
+    def send(self, number: int, request: Request | None) -> None:
+        """Hand over a request, or None to drop the one of that number."""
+        assert self._popen.stdin is not None
+        try:
+            pickle.dump((number, request), self._popen.stdin, protocol=5)
+            self._popen.stdin.flush()
+        except (OSError, ValueError):
+            self._ended.set()
+
+    def received(self, seconds: float) -> Answer | Failure | Stage | None:
+        """The next message, None where there is none in time."""
+        try:
+            message = self._messages.get(timeout=seconds)
+        except queue.Empty:
+            return None
+        self.is_new = False
+        return message
+
+    def end(self) -> int:
+        """End the process; its exit code."""
+        self._popen.kill()
+        code = self._popen.wait()
+        for stream in (self._popen.stdin, self._popen.stdout):
+            assert stream is not None
+            try:
+                stream.close()
+            except OSError:
+                pass
+        return code
+
+    def _listen(self) -> None:
+        try:
+            while True:
+                self._messages.put(pickle.load(self._popen.stdout))  # type: ignore[arg-type]
+        except (EOFError, OSError, ValueError, pickle.UnpicklingError):
+            self._ended.set()

@@ -1,0 +1,105 @@
+"""Who makes the designs: Dask workers started on this machine, or those of a scheduler that runs already."""
+
+import logging
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from time import monotonic
+
+from plisse.errors import PlisseError
+from plisse.extras import optional
+from plisse.study.isolated import process_options
+
+__all__ = ["Crew", "crew"]
+
+PURPOSE = "studies"
+PATIENCE = 10.0  # seconds within which a worker that ends has not worked at all
+FAILURES = 5
+
+
+class Crew:
+    """A Dask client; workers of our own are started again when they end."""
+
+    def __init__(self, client, local_address: str | None = None, count: int = 0):
+        self.client, self._address = client, local_address
+        self._processes: list[subprocess.Popen] = []
+        self._started: list[float] = []
+        self._failures = 0
+        self._errors = tempfile.TemporaryFile()  # noqa: SIM115  lives as long as the crew
+        for _ in range(count):
+            self._processes.append(self._worker())
+            self._started.append(monotonic())
+
+    @property
+    def capacity(self) -> int:
+        """How many designs can be made at the same time now."""
+        return sum(self.client.nthreads().values())
+
+    def tend(self) -> None:
+        """Start workers again that have ended; raises PlisseError where they cannot even start."""
+        for k, process in enumerate(self._processes):
+            if process.poll() is None:
+                continue
+            self._failures = self._failures + 1 if monotonic() - self._started[k] < PATIENCE else 0
+            if self._failures >= FAILURES:
+                raise PlisseError(f"workers do not start on this machine{self._last_words()}; "
+                                  "see whether `python -c 'import distributed'` works")
+            self._processes[k], self._started[k] = self._worker(), monotonic()
+
+    def end(self) -> None:
+        """End our own workers, and with them the processes in which they make designs."""
+        for process in self._processes:
+            process.kill()
+            process.wait()
+            if process.stdin is not None:
+                process.stdin.close()
+        self._errors.close()
+
+    def _worker(self) -> subprocess.Popen:
+        command = [sys.executable, "-m", "plisse.study.worker", str(self._address)]
+        return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=self._errors,
+                                **process_options())
+
+    def _last_words(self) -> str:
+        self._errors.seek(0)
+        lines = self._errors.read()[-2000:].decode(errors="replace").strip().splitlines()
+        return f" ({lines[-1].strip()})" if lines else ""
+
+
+@contextmanager
+def crew(scheduler: str | None = None, workers: int | None = None) -> Iterator[Crew]:
+    """Workers for a study: `workers` on this machine, one per core if not said, or those of a `scheduler` address.
+
+    Raises MissingExtra without Dask, PlisseError where the scheduler does not answer.
+    """
+    distributed = optional("distributed", extra="sweep", purpose=PURPOSE)
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters is a row of the study
+    if scheduler is None:
+        with _local(distributed, workers) as found:
+            yield found
+        return
+    try:
+        client = distributed.Client(scheduler, timeout=20, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        reason = f"{type(error).__name__}: {error}".splitlines()[0]
+        raise PlisseError(f"no Dask scheduler answers at {scheduler} ({reason}); start one with `dask scheduler`, or leave "
+                          "--scheduler out to work on this machine") from None
+    with client:
+        yield Crew(client)
+
+
+@contextmanager
+def _local(distributed, workers: int | None) -> Iterator[Crew]:
+    from dask.system import CPU_COUNT
+
+    # designs whose worker dies come back to us at once, so that their attempts are counted
+    cluster = distributed.LocalCluster(n_workers=0, threads_per_worker=1, dashboard_address=None, protocol="tcp",
+                                       silence_logs=logging.CRITICAL, scheduler_kwargs={"allowed_failures": 0})
+    with cluster, distributed.Client(cluster, set_as_default=False) as client:
+        found = Crew(client, cluster.scheduler_address, workers or CPU_COUNT)
+        try:
+            yield found
+        finally:
+            found.end()

@@ -1,0 +1,92 @@
+"""From a plan to its designs: recipes with a key each, the same whenever and wherever they are made."""
+
+import copy
+import hashlib
+from functools import lru_cache
+from pathlib import Path
+
+import msgspec
+
+from plisse.errors import InvalidDesign, PlisseError
+from plisse.io.designs import design_from_dict
+from plisse.study.plan import Plan
+from plisse.study.values import assignments
+
+__all__ = ["Sample", "samples", "value_at"]
+
+FILES = ("file", "edited_file")
+
+
+class Sample(msgspec.Struct, frozen=True):
+    """One design of a study: its key, the values of the varied keys, its whole recipe, and what is wrong with it, if so."""
+
+    key: str
+    parameters: dict
+    recipe: dict
+    mistake: str | None = None
+
+
+def samples(plan: Plan) -> list[Sample]:
+    """All designs of a plan in order, equal ones once.
+
+    Raises InvalidDesign where not a single one is possible, with the reason of the first, and for a map over no key.
+    """
+    found: dict[str, Sample] = {}
+    for block in plan.blocks:
+        for parameters in assignments(block):
+            sample = _sample(plan, parameters)
+            found.setdefault(sample.key, sample)
+    if not found:
+        raise InvalidDesign("vary is empty; add a key of a design with its values, for example pattern.theta = [20, 30]")
+    if all(sample.mistake for sample in found.values()):
+        raise InvalidDesign(f"no design of this study is possible; the first: {next(iter(found.values())).mistake}")
+    for key in () if plan.map is None else (*plan.map.keys, plan.map.panels):
+        if key is not None and all(value_at(sample.recipe, key) is None for sample in found.values()):
+            raise InvalidDesign(f"map names {key}, a key that no design of this study has; give one of "
+                                f"{', '.join(next(iter(found.values())).parameters)}")
+    return list(found.values())
+
+
+def value_at(recipe: dict, key: str) -> object:
+    """The value under a dotted key of nested dictionaries, None where there is none."""
+    place: object = recipe
+    for name in key.split("."):
+        place = place.get(name) if isinstance(place, dict) else None
+    return place
+
+
+def _sample(plan: Plan, parameters: dict) -> Sample:
+    assert isinstance(plan.base, dict)  # a plan that was read has its base design
+    data = copy.deepcopy(plan.base)
+    for key, value in parameters.items():
+        _assign(data, key, value)
+    try:
+        recipe = design_from_dict(data, base=plan.folder).to_dict()
+    except PlisseError as error:
+        return Sample(_key(data), parameters, data, str(error))
+    return Sample(_key(recipe), parameters, recipe)
+
+
+def _assign(data: dict, key: str, value: object) -> None:
+    *sections, last = key.split(".")
+    for section in sections:
+        data = data.setdefault(section, {})
+        if not isinstance(data, dict):
+            raise InvalidDesign(f"vary.{key} goes through {section}, which is a value of the base design and not a section")
+    data[last] = value
+
+
+def _key(recipe: dict) -> str:
+    """Sixteen hexadecimal digits of a recipe: of its numbers and of the contents of files, not of where they lie."""
+    surface = recipe.get("surface")
+    if isinstance(surface, dict):
+        recipe = {**recipe, "surface": {key: _content(value) if key in FILES else value for key, value in surface.items()}}
+    return hashlib.sha256(msgspec.json.encode(recipe, order="deterministic")).hexdigest()[:16]
+
+
+@lru_cache(maxsize=256)
+def _content(path: str) -> str:
+    try:
+        return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+    except OSError:
+        return path

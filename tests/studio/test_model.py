@@ -1,0 +1,127 @@
+"""The desk: what is on screen and its TOML are one, and every step can be taken back."""
+
+import tomllib
+
+import pytest
+
+from plisse.shipped import shipped_design, shipped_names
+from plisse.errors import InvalidDesign, InvalidMesh
+from plisse.io.designs import design_from_dict, read_design
+from plisse.studio.model import Desk
+
+RECIPE = {"curve": {"kind": "spline", "points": [[0, 0, 0], [40, 18, 8], [80, 18, 14], [120, 0, 16]]},
+          "pattern": {"theta": 40, "creases": 7, "width": 5, "amplitude": 3, "samples": 61}}
+
+
+class Clock:
+    def __init__(self):
+        self.now = 0.0
+
+    def __call__(self):
+        return self.now
+
+
+@pytest.fixture
+def clock():
+    return Clock()
+
+
+@pytest.fixture
+def desk(clock):
+    return Desk(design_from_dict(RECIPE), "a wave", clock=clock)
+
+
+def test_the_text_is_the_design_on_screen_after_every_step(desk, clock):
+    for changes in ({"theta": 30}, {"points": [[0, 0, 0], [40, 20, 8], [80, 18, 14], [120, 0, 16]]}, {"principal": True},
+                    {"width": [5, 6, 5, 6, 5, 6]}):
+        clock.now += 5
+        desk.change(changes)
+        assert design_from_dict(tomllib.loads(desk.toml)) == desk.recipe
+
+
+def test_undoing_everything_gives_the_first_text_again_and_redoing_the_last(desk, clock):
+    first = desk.toml
+    for theta in (10, 20, 30):
+        clock.now += 5
+        desk.change({"theta": theta})
+    last = desk.toml
+    while desk.can_undo:
+        desk.undo()
+    assert desk.toml == first
+    while desk.can_redo:
+        desk.redo()
+    assert desk.toml == last
+
+
+def test_a_slider_that_is_pulled_goes_back_in_one_step(desk, clock):
+    first = desk.toml
+    for theta in range(10, 40):
+        clock.now += 0.05
+        desk.change({"theta": theta})
+    desk.undo()
+    assert desk.toml == first
+
+
+def test_two_sliders_go_back_one_after_the_other(desk, clock):
+    desk.change({"theta": 10})
+    clock.now += 0.1
+    desk.change({"amplitude": 2})
+    desk.undo()
+    assert (desk.recipe.pattern.theta, desk.recipe.pattern.amplitude) == (10, 3)
+
+
+def test_a_refused_change_leaves_everything_as_it_was(desk):
+    before = desk.toml
+    with pytest.raises(InvalidDesign, match=r"pattern\.creases"):
+        desk.change({"creases": 2})
+    assert desk.toml == before
+    assert not desk.can_undo
+
+
+def test_text_in_is_text_out(desk):
+    for name in shipped_names():
+        desk.open(read_design(shipped_design(name)), name)
+        text = desk.toml
+        desk.undo()
+        desk.read(text, name)
+        assert desk.toml == text
+
+
+@pytest.mark.parametrize("text", ['[curve]\nkind="points"\nfile="/etc/passwd"', '[surface]\nfile="/etc/passwd"',
+                                  '[surface]\nguide_file="/etc/passwd"', '[surface]\nedited_file="../secret.obj"'])
+def test_a_text_cannot_name_files(desk, text):
+    with pytest.raises(InvalidDesign, match="names a file"):
+        desk.read(text + '\n[pattern]\ncreases=5\nwidth=5\namplitude=2\n')
+
+
+@pytest.mark.parametrize("text", ["", "x = ", "[" * 10_000, "a = 1\n" * 300_000, "curve = 5"])
+def test_bad_texts_are_one_sentence(desk, text):
+    before = desk.toml
+    with pytest.raises(InvalidDesign) as error:
+        desk.read(text)
+    assert len(str(error.value).splitlines()) == 1
+    assert desk.toml == before
+
+
+def test_an_uploaded_mesh_is_named_without_its_place_and_lies_under_a_name_of_ours(desk):
+    name = desk.shelf.put("../../etc/my roof;rm -rf.OBJ", b"v 0 0 0\n")
+    assert name == "etc-my-roof-rm-rf.obj"
+    desk.read(f'[surface]\nfile = "{name}"\n[pattern]\nwidth = 2\n')
+    path = desk.solvable.surface.file
+    assert path.endswith("/0.obj")
+    assert "etc" not in path
+    assert f'file = "{name}"' in desk.toml
+    desk.close()
+    with pytest.raises(InvalidDesign):
+        desk.read('[surface]\nfile = "roof.obj"')
+
+
+@pytest.mark.parametrize("name", ["roof.py", "roof", "..", "roof.obj/", ""])
+def test_what_is_no_mesh_file_is_refused(desk, name):
+    with pytest.raises(InvalidMesh):
+        desk.shelf.put(name, b"v 0 0 0")
+
+
+def test_empty_files_are_refused(desk):
+    with pytest.raises(InvalidMesh):
+        desk.shelf.put("roof.obj", b"")

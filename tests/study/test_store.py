@@ -1,0 +1,87 @@
+import sqlite3
+
+import pytest
+
+from plisse.errors import PlisseError
+from plisse.study.outcome import Outcome
+from plisse.study.plan import read_plan
+from plisse.study.samples import samples
+from plisse.study.store import Store, locked
+
+
+@pytest.fixture
+def planned(study):
+    return samples(read_plan(study))
+
+
+def test_designs_wait_in_their_order_until_their_outcome_is_committed(tmp_path, planned):
+    with Store(tmp_path) as store:
+        store.plan(planned)
+        assert [key for key, _ in store.waiting()] == [sample.key for sample in planned]
+        store.begun(planned[2].key)
+        store.done(planned[2].key, Outcome(status="exact", reasons=[], numbers={"vertices": 12}, picture=b"png"))
+    with Store(tmp_path) as store:
+        assert planned[2].key not in dict(store.waiting())
+        row = store.rows()[2]
+        assert (row.status, row.attempts, row.numbers["vertices"]) == ("exact", 1, 12)
+        assert store.pictures([planned[2].key, planned[3].key]) == {planned[2].key: b"png"}
+
+
+def test_a_design_that_was_under_way_waits_again_and_its_attempt_is_remembered(tmp_path, planned):
+    with Store(tmp_path) as store:
+        store.plan(planned)
+        store.begun(planned[0].key)
+        assert len(store.waiting()) == len(planned) - 1
+        store.plan(planned)
+        assert len(store.waiting()) == len(planned)
+        assert store.rows()[0].attempts == 1
+
+
+def test_a_changed_study_adds_designs_keeps_results_and_forgets_what_never_ran(tmp_path, study, planned):
+    other = samples(read_plan({**study, "vary": {"closed_form.slope": [1.0], "closed_form.width": [8, 10]}}))
+    with Store(tmp_path) as store:
+        store.plan(planned)
+        for sample in planned[:2]:
+            store.done(sample.key, Outcome(status="exact", reasons=[]))
+        store.plan(other)
+        rows = store.rows()
+    assert {row.key for row in rows if row.status == "exact"} == {sample.key for sample in planned[:2]}
+    assert {row.key for row in rows if row.status == "waiting"} == {sample.key for sample in other}
+
+
+def test_designs_that_took_too_long_wait_again_only_when_asked(tmp_path, planned):
+    with Store(tmp_path) as store:
+        store.plan(planned)
+        store.done(planned[0].key, Outcome(status="timeout", reasons=["it takes more than 1 second"]))
+        store.plan(planned)
+        assert planned[0].key not in dict(store.waiting())
+        store.plan(planned, again=("timeout",))
+        assert planned[0].key in dict(store.waiting())
+
+
+def test_an_impossible_design_is_a_row_with_its_reason_from_the_start(tmp_path, study):
+    with Store(tmp_path) as store:
+        store.plan(samples(read_plan({**study, "vary": {"closed_form.slope": [0.5, -1]}})))
+        row = store.rows()[1]
+    assert row.status == "invalid" and "closed_form.slope" in row.reasons[0]
+
+
+def test_two_studies_on_one_store_are_refused_with_a_sentence(tmp_path):
+    with locked(tmp_path):
+        with pytest.raises(PlisseError, match="another study works in .*; wait"), locked(tmp_path):
+            pass
+    with locked(tmp_path):
+        pass
+
+
+def test_what_is_no_store_is_refused_and_left_alone(tmp_path):
+    (tmp_path / "study.sqlite").write_bytes(b"no database " * 100)
+    with pytest.raises(PlisseError, match="not the store of a study"):
+        Store(tmp_path)
+    assert (tmp_path / "study.sqlite").read_bytes() == b"no database " * 100
+    with sqlite3.connect(tmp_path / "other.sqlite") as base:
+        base.execute("CREATE TABLE designs (something)")
+    base.close()
+    (tmp_path / "other.sqlite").replace(tmp_path / "study.sqlite")
+    with pytest.raises(PlisseError, match="not the store of a study"):
+        Store(tmp_path)
