@@ -22,7 +22,6 @@ from plisse.layout.asymptotic.feasibility import (
     refuse_twist,
 )
 from plisse.layout.asymptotic.pattern import AsymptoticLayout, Sizes, lay_out
-from plisse.layout.coverage import AreaSamples, covered
 from plisse.measure.mid_surface import mid_surface_deviation
 from plisse.outcomes import broken_down
 from plisse.recipe import AsymptoticDesign, AsymptoticSurface
@@ -34,6 +33,7 @@ from plisse.solve.raising import Raised, finer, raised
 from plisse.solve.workspace import Workspace
 from plisse.stopwatch import Stopwatch
 from plisse.structure.pleated import PleatedStructure
+from plisse.structure.triangles import triangulated
 
 __all__ = ["along_asymptotic_curves"]
 
@@ -71,7 +71,7 @@ def along_asymptotic_curves(recipe: AsymptoticDesign, watch: Stopwatch, workspac
         report, status=report.status if reasons == report.reasons else "approximate", reasons=reasons, method=found.way.name,
         iterations=found.solved.iterations, tried=tried, crease_deviation=_astray(found, amplitude), seconds=watch.stop(),
         design=recipe.to_dict(), warnings=[*_about(found), *notes, *overlap_notes(report)])
-    return Result(recipe, _over(report, structure, mesh, surface, amplitude), structure=structure)
+    return Result(recipe, _over(report, found, structure, mesh, surface, amplitude), structure=structure)
 
 
 def _surface(section: AsymptoticSurface) -> tuple[Chart, ReferenceMesh | None, Surface | None]:
@@ -103,12 +103,13 @@ def _unfinished(found: Raised, amplitude: float) -> list[str]:
     out = []
     if found.height < 1:
         tall = float(np.ptp(found.layout.points @ unit(found.layout.normals.mean(axis=0)[None])[0])) / amplitude
-        out.append(f"the surface could be raised to {100 * found.height:.0f} % of its height only, which is {tall:.1f} amplitudes "
-                   f"(above {TALLEST:g} few patterns become exact); flatten it, or take a smaller part or a larger amplitude")
-    wrong = found.zigzag.against_labels(found.solved.vertices).sum()
+        out.append(f"the surface could be raised to {100 * found.height:.0f} % of its height only, which is {tall:.1f} "
+                   f"amplitudes (few patterns become exact above {TALLEST:g}); flatten it, or take a smaller part or a "
+                   "larger amplitude")
+    wrong = found.zigzag.against_labels(found.solved.vertices).sum() if found.is_exact else 0
     if wrong:
-        out.append(f"{wrong} crease edges fold the other way than mountains and valleys were assigned; a larger amplitude or "
-                   "fewer creases help")
+        out.append(f"{wrong} crease edges fold the other way than mountains and valleys were assigned; a larger amplitude "
+                   "or fewer creases help")
     return out
 
 
@@ -125,19 +126,19 @@ def _astray(found: Raised, amplitude: float):
 
 def _about(found: Raised) -> list[str]:
     """The singularities of a pattern, for its report."""
-    return [f"a singularity of index {single.index:g} at ({', '.join(f'{x:.4g}' for x in point)}), {single.sectors} sectors"
-            for single, point in zip(found.layout.hubs, found.layout.chart.positions(
-                np.array([single.place for single in found.layout.hubs], complex)), strict=True)]
+    layout = found.layout
+    points = layout.chart.positions(np.array([hub.place for hub in layout.hubs], complex))
+    points[np.abs(points) < 1e-6 * layout.width] = 0.0
+    return [f"a singularity of index {hub.index:g} at ({', '.join(f'{x:.4g}' for x in point)}), {hub.sectors} sectors"
+            for hub, point in zip(layout.hubs, points, strict=True)]
 
 
-def _over(report: Report, structure: PleatedStructure, mesh: ReferenceMesh | None, surface: Surface | None,
+def _over(report: Report, found: Raised, structure: PleatedStructure, mesh: ReferenceMesh | None, surface: Surface | None,
           amplitude: float) -> Report:
     """The report with coverage and deviation, where there is a mesh to measure them on."""
     if mesh is None or surface is None:
         return report
-    quads, hubs = structure.topology.quads, structure.topology.hubs
-    fans = [hub[[0, k, k + 1, k + 2]] for hub in hubs for k in range(1, len(hub) - 2, 2)]
-    coverage = covered(AreaSamples.of(mesh.vertices, mesh.triangles), structure.vertices,
-                       np.concatenate([quads, np.array(fans, int).reshape(-1, 4)]), 3 * amplitude + 3 * structure.mean_edge)
-    deviation = mid_surface_deviation(surface, structure.vertices, quads)
-    return msgspec.structs.replace(report, coverage=coverage, deviation=deviation_of(deviation, mesh.diagonal, amplitude))
+    under = ReferenceMesh(found.layout.points, triangulated(structure.topology)[0])
+    deviation = mid_surface_deviation(surface, structure.vertices, structure.topology.quads)
+    return msgspec.structs.replace(report, coverage=under.area / mesh.area,
+                                   deviation=deviation_of(deviation, mesh.diagonal, amplitude))

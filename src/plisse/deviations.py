@@ -1,6 +1,5 @@
 """How far a structure is from what its recipe asked for, measured again from the recipe alone (Figs 17 and 20)."""
 
-import numpy as np
 
 from plisse.draw.colour_maps import ColourMap, deviation_from_guides, deviation_from_surface
 from plisse.errors import PlisseError
@@ -8,8 +7,8 @@ from plisse.geometry.mesh import ReferenceMesh
 from plisse.io.designs import design_from_dict
 from plisse.layout.guiding import guiding
 from plisse.measure.mid_surface import mid_surface_deviation
-from plisse.reconstruction import edited_vertices, reference_surface
 from plisse.recipe import Design, SurfaceDesign
+from plisse.reconstruction import edited_vertices, reference_surface
 from plisse.result import Report
 from plisse.structure.pleated import PleatedStructure
 
@@ -27,7 +26,11 @@ def deviation_again(structure: PleatedStructure, report: Report) -> ColourMap | 
         recipe = design_from_dict(report.design)
     except PlisseError:
         return None
-    found = _from_surface(structure, recipe, report) if isinstance(recipe, SurfaceDesign) else _from_pattern(structure, recipe)
+    found = None
+    if isinstance(recipe, SurfaceDesign):
+        found = _from_surface(structure, recipe, report)
+    elif isinstance(recipe, Design):
+        found = _from_pattern(structure, recipe)
     told = report.deviation.max_amplitudes if report.deviation else report.crease_deviation and report.crease_deviation.max
     return found if found is not None and told and abs(found.largest - told) <= AGREES * told else None
 

@@ -33,8 +33,8 @@ def _said_of(outcome: Outcome) -> list[str]:
     return lines
 
 
-def broken_down(recipe: Design | SurfaceDesign | AsymptoticDesign, reasons: list[str], watch: Stopwatch, guide: Guiding | None = None,
-                zigzagged: PleatedStructure | None = None) -> Result:
+def broken_down(recipe: Design | SurfaceDesign | AsymptoticDesign, reasons: list[str], watch: Stopwatch,
+                guide: Guiding | None = None, zigzagged: PleatedStructure | None = None) -> Result:
     """The result of a design that came to nothing, with the reasons."""
     report = Report(status="infeasible", reasons=reasons, seconds=watch.stop(), units=recipe.units,
                     design=recipe.to_dict())

@@ -7,8 +7,8 @@ import msgspec
 import numpy as np
 
 from plisse.arrangements import arranged_strips
-from plisse.asymptotic import along_asymptotic_curves
 from plisse.assess import assess, overlap_notes, start_defects
+from plisse.asymptotic import along_asymptotic_curves
 from plisse.errors import Infeasible
 from plisse.io.designs import design_from_dict, read_design
 from plisse.layout.guiding import Guiding, guiding
@@ -148,7 +148,8 @@ def _measured(recipe: Design, guides: np.ndarray, amplitude: float, structure: P
     return msgspec.structs.replace(report, seconds=watch.stop(), design=recipe.to_dict())
 
 
-def _checked(recipe: Design | SurfaceDesign | AsymptoticDesign | dict | str | Path) -> Design | SurfaceDesign | AsymptoticDesign:
+def _checked(recipe: Design | SurfaceDesign | AsymptoticDesign | dict | str | Path) \
+        -> Design | SurfaceDesign | AsymptoticDesign:
     if isinstance(recipe, Design | SurfaceDesign | AsymptoticDesign):
         return design_from_dict(recipe.to_dict())  # objects made in Python are not validated before
     return design_from_dict(recipe) if isinstance(recipe, dict) else read_design(recipe)

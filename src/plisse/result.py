@@ -131,3 +131,27 @@ class Result:
     def status(self) -> str:
         """exact, approximate or infeasible."""
         return self.report.status
+
+    def report_page(self, *, title: str = "") -> str:
+        """One self-contained HTML page: a turning view, the sheet, the numbers, the way there, the recipe.
+
+        Raises ValueError where the design broke down before there was a structure.
+        """
+        from plisse.draw.colour_maps import deviation_of
+        from plisse.io.page import report_page
+
+        if self.structure is None:
+            raise ValueError(f"there is no structure to show: {'; '.join(self.report.reasons)}")
+        return report_page(self.structure, self.report, title=title, deviation=deviation_of(self))
+
+    def plot(self, ax=None, *, flat: bool = False):
+        """The structure on matplotlib axes, see PleatedStructure.plot; raises ValueError where there is none."""
+        if self.structure is None:
+            raise ValueError(f"there is no structure to show: {'; '.join(self.report.reasons)}")
+        return self.structure.plot(ax, flat=flat)
+
+    def _repr_html_(self) -> str:
+        """Status, numbers and a picture, for notebooks."""
+        from plisse.draw.notebook import result_html
+
+        return result_html(self)

@@ -6,7 +6,7 @@ from pathlib import Path
 from plisse.errors import InvalidDesign
 from plisse.io.designs import design_from_dict, read_design
 from plisse.pipeline import design
-from plisse.recipe import Design, SurfaceDesign
+from plisse.recipe import Recipe
 from plisse.result import Result
 from plisse.solve.workspace import Workspace
 
@@ -23,7 +23,7 @@ class Session:
     thread. Raises InvalidDesign for impossible recipes; the session then stays as it was.
     """
 
-    def __init__(self, recipe: Design | SurfaceDesign | dict | str | Path, *, progress: Progress | None = None):
+    def __init__(self, recipe: Recipe | dict | str | Path, *, progress: Progress | None = None):
         self._workspace = Workspace()
         self.recipe = read_design(recipe) if isinstance(recipe, str | Path) else _checked(recipe)
         self.result = self._solved(self.recipe, progress)
@@ -35,18 +35,18 @@ class Session:
         """
         return self.open(changed(self.recipe, {**(changes or {}), **values}), progress=progress)
 
-    def open(self, recipe: Design | SurfaceDesign | dict | str | Path, *, progress: Progress | None = None) -> Result:
+    def open(self, recipe: Recipe | dict | str | Path, *, progress: Progress | None = None) -> Result:
         """The structure of another recipe, on the patterns that are kept."""
         recipe = read_design(recipe) if isinstance(recipe, str | Path) else _checked(recipe)
         result = self._solved(recipe, progress)
         self.recipe, self.result = recipe, result
         return result
 
-    def _solved(self, recipe: Design | SurfaceDesign, progress: Progress | None) -> Result:
+    def _solved(self, recipe: Recipe, progress: Progress | None) -> Result:
         return design(recipe, progress=progress, workspace=self._workspace)
 
 
-def changed(recipe: Design | SurfaceDesign, changes: dict) -> Design | SurfaceDesign:
+def changed(recipe: Recipe, changes: dict) -> Recipe:
     """The checked recipe after changes, named as in `Session.update`; raises InvalidDesign where there is none."""
     data = recipe.to_dict()
     for name, value in changes.items():
@@ -59,7 +59,7 @@ def changed(recipe: Design | SurfaceDesign, changes: dict) -> Design | SurfaceDe
     return design_from_dict(data)
 
 
-def _place(recipe: Design | SurfaceDesign, name: str) -> tuple[str | None, str]:
+def _place(recipe: Recipe, name: str) -> tuple[str | None, str]:
     """Section and key that a name means."""
     section, dot, key = name.partition(".")
     if dot:
@@ -76,7 +76,7 @@ def _place(recipe: Design | SurfaceDesign, name: str) -> tuple[str | None, str]:
     raise InvalidDesign(f"a design of this kind has no key {name}; its keys are {', '.join(known)}")
 
 
-def _checked(recipe: Design | SurfaceDesign | dict) -> Design | SurfaceDesign:
+def _checked(recipe: Recipe | dict) -> Recipe:
     return design_from_dict(recipe if isinstance(recipe, dict) else recipe.to_dict())
 
 

@@ -4,9 +4,9 @@ import tomllib
 
 import pytest
 
-from plisse.shipped import shipped_design, shipped_names
 from plisse.errors import InvalidDesign, InvalidMesh
 from plisse.io.designs import design_from_dict, read_design
+from plisse.shipped import shipped_design, shipped_names
 from plisse.studio.model import Desk
 
 RECIPE = {"curve": {"kind": "spline", "points": [[0, 0, 0], [40, 18, 8], [80, 18, 14], [120, 0, 16]]},

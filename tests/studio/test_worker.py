@@ -6,6 +6,7 @@ import queue
 import signal
 import time
 from dataclasses import dataclass
+from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
@@ -23,11 +24,18 @@ RECIPE = design_from_dict({"curve": {"kind": "arc", "radius": 100, "angle": 70},
                            "solve": {"principal": True}})
 
 
+class InTheWay(Request):
+    """Something that a solve makes stale."""
+
+    @property
+    def lane(self):
+        return "Solve"
+
+
 @dataclass(frozen=True)
-class Sleepy(Request):
+class Sleepy(InTheWay):
     """Sleeps and looks up from time to time."""
 
-    lane: ClassVar[str] = "solve"
     seconds: float
     listens: bool = True
 
@@ -41,24 +49,19 @@ class Sleepy(Request):
 
 
 @dataclass(frozen=True)
-class Murdered(Request):
-    lane: ClassVar[str] = "solve"
-
+class Murdered(InTheWay):
     def run(self, bench, progress):
         os.kill(os.getpid(), signal.SIGKILL)
 
 
 @dataclass(frozen=True)
-class Broken(Request):
-    lane: ClassVar[str] = "solve"
-
+class Broken(InTheWay):
     def run(self, bench, progress):
         raise ZeroDivisionError
 
 
 @dataclass(frozen=True)
-class Endless(Request):
-    lane: ClassVar[str] = "solve"
+class Endless(InTheWay):
     limit: ClassVar[float] = 0.3
 
     def run(self, bench, progress):
@@ -100,7 +103,7 @@ def client():
 @pytest.fixture(autouse=True)
 def findable(monkeypatch):
     """The process behind a worker finds the requests of this file."""
-    monkeypatch.setenv("PYTHONPATH", os.path.dirname(__file__))
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent))
 
 
 def test_a_solve_gives_what_a_script_gets(client):

@@ -32,7 +32,8 @@ def test_every_recipe_is_a_whole_design(study):
 
 def test_keys_tell_designs_apart_and_not_how_they_were_written(study):
     grid = samples(read_plan(study))
-    other = {**study, "vary": [{"closed_form": {"slope": [s], "width": {"start": 4, "stop": 8, "count": 3}}} for s in (1, 0.5)]}
+    width = {"start": 4, "stop": 8, "count": 3}
+    other = {**study, "vary": [{"closed_form": {"slope": [slope], "width": width}} for slope in (1, 0.5)]}
     assert {sample.key for sample in samples(read_plan(other))} == {sample.key for sample in grid}
     wider = {**study, "base": {"closed_form": {**study["base"]["closed_form"], "sector": 91}}}
     assert not {sample.key for sample in samples(read_plan(wider))} & {sample.key for sample in grid}

@@ -67,9 +67,8 @@ def test_an_impossible_design_is_a_row_with_its_reason_from_the_start(tmp_path, 
 
 
 def test_two_studies_on_one_store_are_refused_with_a_sentence(tmp_path):
-    with locked(tmp_path):
-        with pytest.raises(PlisseError, match="another study works in .*; wait"), locked(tmp_path):
-            pass
+    with locked(tmp_path), pytest.raises(PlisseError, match=r"another study works in .*; wait"), locked(tmp_path):
+        pass
     with locked(tmp_path):
         pass
 

@@ -20,8 +20,10 @@ from plisse.cli.offset import offset
 from plisse.cli.parallel import parallel
 from plisse.cli.plates import plates
 from plisse.cli.render import render
+from plisse.cli.report import report
 from plisse.cli.sheets import sheets
 from plisse.cli.strips import strips
+from plisse.cli.studio import studio
 from plisse.cli.study import study
 from plisse.cli.table import table
 from plisse.errors import PlisseError
@@ -46,6 +48,7 @@ app.command(check)
 app.command(export)
 app.command(sheets)
 app.command(render)
+app.command(report)
 app.command(gallery)
 app.command(layout)
 app.command(table)
@@ -55,6 +58,7 @@ app.command(offset)
 app.command(plates)
 app.command(parallel)
 app.command(strips)
+app.command(studio)
 
 
 def main(tokens: Sequence[str] | None = None) -> int:

@@ -24,9 +24,9 @@ def gallery(
         File to copy to instead.
     """
     from plisse.cli.console import list_designs
-    from plisse.shipped import description, shipped_design, shipped_names
     from plisse.errors import PlisseError
     from plisse.io.atomic import written
+    from plisse.shipped import description, shipped_design, shipped_names
 
     if name is None and output is not None:
         raise PlisseError("-o names a file to copy to, but no design is named; give one that `plisse gallery` lists")

@@ -105,10 +105,10 @@ def design_text(recipe: SurfaceDesign, candidate: Candidate, surface: GraphSurfa
 
 
 def _recipe(file: str) -> SurfaceDesign:
-    from plisse.shipped import find_design, shipped_names
     from plisse.errors import InvalidDesign
     from plisse.io.designs import read_design
     from plisse.recipe import Surface, SurfaceDesign
+    from plisse.shipped import find_design, shipped_names
 
     if Path(file).suffix.lower() != ".toml" and file not in shipped_names():
         return SurfaceDesign(surface=Surface(file=file))

@@ -42,10 +42,10 @@ def make(
         Print nothing.
     """
     from plisse.cli.console import progress, summarise
-    from plisse.shipped import find_design
     from plisse.io.atomic import require_writable
     from plisse.io.designs import read_design
     from plisse.io.report import report_json
+    from plisse.shipped import find_design
 
     path = find_design(design)
     recipe = read_design(path, set_)

@@ -116,6 +116,7 @@ def _colour_map(file: Path, structure: PleatedStructure, name: str) -> ColourMap
     maps = colour_maps(structure, deviation)
     if name in maps:
         return maps[name]
-    raise InvalidDesign(f"{file.name} has no fold between two faces, so there is no opening angle to colour" if name == "opening"
-                        else f"nothing says what {file.name} should be near to; --colour deviation needs the report.json that "
+    if name == "opening":
+        raise InvalidDesign(f"{file.name} has no fold between two faces, so there is no opening angle to colour")
+    raise InvalidDesign(f"nothing says what {file.name} should be near to; --colour deviation needs the report.json that "
                         "plisse make wrote beside it, for a design with a pattern or a surface")

@@ -133,11 +133,16 @@ def _from_design(name: str, width: float | None, thickness: float | None, side: 
     """Strips along the guiding curves of a design."""
     from msgspec.structs import replace
 
-    from plisse.shipped import find_design
+    from plisse.errors import InvalidDesign
     from plisse.io.designs import read_design
     from plisse.pipeline import design
+    from plisse.recipe import AsymptoticDesign
+    from plisse.shipped import find_design
 
     recipe = read_design(find_design(name))
+    if isinstance(recipe, AsymptoticDesign):
+        raise InvalidDesign(f"{name} has pleats along asymptotic curves; make it, and give its structure.fold for strips "
+                            "along its creases")
     if recipe.strips is None:
         return design(_with_strips(recipe, _wanted(width, thickness, side)))
     options = {"width": width, "thickness": thickness, "side": side}

@@ -56,7 +56,7 @@ def colour_maps(structure: PleatedStructure, deviation: ColourMap | None = None)
     planarity = planarity_defect(topology, vertices)[corner.face]
     angle = np.abs(angle_defect(topology, vertices))[corner.vertex]
     principal = principal_defect(topology, vertices)[corner.vertex]
-    maps = [ColourMap("planarity", "planarity: distance of diagonals / their length", planarity, defect_scale(planarity.max())),
+    maps = [ColourMap("planarity", "planarity: distance of diagonals / length", planarity, defect_scale(planarity.max())),
             ColourMap("angle", "angle sum: |Σω − 2π| in radians", angle, defect_scale(angle.max())),
             ColourMap("principal", "principal defect: |ω1 + ω3 − π| in radians", principal, defect_scale(principal.max()))]
     openings = _openings(structure)
@@ -95,7 +95,8 @@ def deviation_from_guides(structure: PleatedStructure, pattern: Pattern, amplitu
         return None
     guides = zigzag_curves(pattern.resampled(samples), amplitude)
     distances = crease_deviation(structure.vertices.reshape(pattern.creases, samples, 3), guides, pattern.closed)
-    return _deviation("deviation of creases from the pattern in amplitudes", (distances.ravel() / amplitude)[topology.corners.vertex])
+    return _deviation("deviation of creases from the pattern in amplitudes",
+                      (distances.ravel() / amplitude)[topology.corners.vertex])
 
 
 def _deviation(title: str, values: np.ndarray) -> ColourMap:

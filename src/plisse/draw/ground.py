@@ -32,7 +32,8 @@ def ground(size: tuple[int, int], coverage: np.ndarray, corner: np.ndarray, tria
         return np.broadcast_to(rgb(BACKGROUND), (*shape, 3)) * glow(*shape)[..., None]
     if not fineness.casts:
         return table(size, coverage, corner, [])
-    return rgb(BACKGROUND) * glow(*shape)[..., None] * _shadow(shape, corner, triangles, upright.astype(np.float32), fineness)
+    shadow = _shadow(shape, corner, triangles, upright.astype(np.float32), fineness)
+    return rgb(BACKGROUND) * glow(*shape)[..., None] * shadow
 
 
 def _shadow(shape: tuple[int, int], corner: np.ndarray, triangles: np.ndarray, upright: np.ndarray,

@@ -16,7 +16,10 @@ OFF = 0.1  # pixels off the surface where rays start
 
 @dataclass(frozen=True)
 class Fineness:
-    """Rays per pixel to the sky and to the sun; `cast` False, or no embree, leaves both to the depth buffer, which is faster."""
+    """Rays per pixel to the sky and to the sun.
+
+    `cast` False, or no embree, leaves both to the depth buffer, which is faster.
+    """
 
     sky: int = 16
     sun: int = 4
@@ -44,7 +47,8 @@ def _cast(triangles: np.ndarray, seen: Seen, fineness: Fineness) -> tuple[np.nda
     disk = SUN + BLUR * fibonacci_sphere(TILE * TILE * fineness.sun)
     values[lit, 0] = open_share(occluder, origins[lit], disk, cell[lit])
     values[:, 1] = open_share(occluder, origins, fibonacci_sphere(TILE * TILE * fineness.sky), cell, known.normals)
-    return tuple(smoothed(values, known, numbers, seen).T)  # type: ignore[return-value]
+    sun, sky = smoothed(values, known, numbers, seen).T
+    return sun, sky
 
 
 def open_share(occluder: Occluder, origins: np.ndarray, directions: np.ndarray, cell: np.ndarray,

@@ -3,10 +3,10 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 
-from plisse.draw import colours
 from plisse.draw.animation import paletted
 from plisse.draw.camera import Camera, best_view
 from plisse.draw.colour_bar import draw_colour_bar
@@ -35,7 +35,8 @@ class Style:
     ambient: bool = True
 
 
-def write_picture(structure: PleatedStructure, path: str | Path, *, camera: Camera | None = None, style: Style = Style()) -> None:
+def write_picture(structure: PleatedStructure, path: str | Path | BinaryIO, *, camera: Camera | None = None,
+                  style: Style | None = None) -> None:
     """Write a PNG of the structure; equal subjects give equal bytes."""
     from PIL import Image
 
@@ -43,18 +44,19 @@ def write_picture(structure: PleatedStructure, path: str | Path, *, camera: Came
 
 
 def write_turntable(structure: PleatedStructure, path: str | Path, *, elevation: float = 35.0, frames: int = 36,
-                    style: Style = Style(size=(720, 540))) -> None:
+                    style: Style | None = None) -> None:
     """Write an endless .gif of one turn around the z axis, seen from `elevation` degrees above."""
     from PIL import Image
 
+    style = Style(size=(720, 540)) if style is None else style
     images = paletted([Image.fromarray(frame).convert("RGB") for frame in turntable(structure, elevation, frames, style)])
     images[0].save(path, format="GIF", save_all=True, append_images=images[1:], loop=0,
                    duration=round(1000 * SECONDS_PER_TURN / frames))
 
 
-def picture(structure: PleatedStructure, *, camera: Camera | None = None, style: Style = Style()) -> np.ndarray:
+def picture(structure: PleatedStructure, *, camera: Camera | None = None, style: Style | None = None) -> np.ndarray:
     """Pixels (H, W, 4) of the structure, as large as fits, seen by the camera or from where it shows most."""
-    camera = best_view(structure) if camera is None else camera
+    camera, style = best_view(structure) if camera is None else camera, Style() if style is None else style
     seen = camera.project(structure.vertices)[:, :2]
     low, high = seen.min(axis=0), seen.max(axis=0)
     room = _room(style)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import reduce
 
 import numpy as np
 from scipy.ndimage import binary_closing, binary_opening
@@ -19,6 +20,7 @@ __all__ = ["Rendering", "render", "render_triangles"]
 
 OVERSAMPLE = 2
 CALM = 0.04
+FAST = Fineness()
 Paint = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 
 
@@ -52,7 +54,7 @@ class Rendering:
 
 
 def render(structure: PleatedStructure, camera: Camera, scale: float, margin: int = 8, colour: ColourMap | None = None,
-           fineness: Fineness = Fineness()) -> Rendering:
+           fineness: Fineness = FAST) -> Rendering:
     """The structure on transparent ground, `scale` pixels per model unit, with `margin` pixels around it.
 
     A `colour` map stands for the colour of the paper.
@@ -66,7 +68,7 @@ def render(structure: PleatedStructure, camera: Camera, scale: float, margin: in
 
 def render_triangles(triangles: np.ndarray, normals: np.ndarray, camera: Camera, scale: float, margin: int = 8,
                      tints: np.ndarray | None = None, paint: Paint | None = None,
-                     fineness: Fineness = Fineness()) -> Rendering:
+                     fineness: Fineness = FAST) -> Rendering:
     """Any triangles (T, 3, 3) as if made of paper, normals (T, 3, 3) at their corners.
 
     `tints` (T, 3) darken the paper; `paint` gives colours (N, 3) for triangles in pixels, which of
@@ -116,10 +118,9 @@ def _image(buffer: DepthBuffer, pixels: np.ndarray, normals: np.ndarray, tints: 
 
 def _samples(buffer: DepthBuffer, kinds: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Rows, columns and weights of samples to shade: one in pixels that show one surface, all in those with an edge."""
-    height, width = (size // OVERSAMPLE for size in buffer.triangle.shape)
-    blocks = buffer.triangle.reshape(height, OVERSAMPLE, width, OVERSAMPLE)
-    kind = kinds[blocks]
-    low, high = kind.min(axis=(1, 3)), kind.max(axis=(1, 3))
+    kind = kinds[buffer.triangle]
+    parts = [kind[y::OVERSAMPLE, x::OVERSAMPLE] for y in range(OVERSAMPLE) for x in range(OVERSAMPLE)]
+    low, high = reduce(np.minimum, parts), reduce(np.maximum, parts)
     calm = (low > 0) & (high - low < CALM)
     row, column = (OVERSAMPLE * index for index in np.nonzero(calm))
     busy = (buffer.triangle >= 0) & ~calm.repeat(OVERSAMPLE, axis=0).repeat(OVERSAMPLE, axis=1)

@@ -29,6 +29,12 @@ class Scale:
         low, high = np.log10([self.low, self.high])
         return np.clip((powers - low) / (high - low), 0, 1)
 
+    def values(self, shares: np.ndarray) -> np.ndarray:
+        """Values at positions in 0…1."""
+        if self.logarithmic:
+            return 10 ** (np.log10(self.low) + shares * np.log10(self.high / self.low))
+        return self.low + shares * (self.high - self.low)
+
     def ticks(self) -> list[tuple[float, str]]:
         """Positions in 0…1 and their labels."""
         if self.logarithmic:
@@ -38,8 +44,10 @@ class Scale:
             return [((power - low) / (high - low), f"1e{power}") for power in powers]
         step = _round_step((self.high - self.low) / TICKS)
         first = np.ceil(self.low / step - 1e-9) * step
-        places = np.arange(first, self.high + 1e-9 * step, step) + 0.0
-        return [((place - self.low) / (self.high - self.low), f"{round(place, 9) + 0.0:g}{self.unit}") for place in places.tolist()]
+        places = np.arange(first, self.high + 1e-9 * step, step)
+        shares = (places - self.low) / (self.high - self.low)
+        return [(share, f"{round(place, 9) + 0.0:g}{self.unit}")
+                for share, place in zip(shares.tolist(), places.tolist(), strict=True)]
 
 
 def defect_scale(largest: float) -> Scale:

@@ -18,8 +18,8 @@ def paper_colour(normals: np.ndarray, front: np.ndarray, sun: np.ndarray, sky: n
     """Colours (N, 3) of points with unit normals (N, 3) towards the viewer.
 
     `front` says which side of the paper is seen, `sun` and `sky` in 0…1 how much of each reaches the point; `colour`
-    (N, 3) stands for the paper's own and is darkened less. Folds are lit by their own walls and paper lets some sun through, so shadows stay
-    warm and never black.
+    (N, 3) stands for the paper's own and is darkened less. Folds are lit by their own walls and paper lets some sun
+    through, so shadows stay warm and never black.
     """
     facing = normals @ SUN.astype(np.float32)
     direct = (np.maximum(facing, 0) * sun + 0.16 * np.maximum(-facing, 0))[:, None]

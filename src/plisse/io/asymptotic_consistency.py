@@ -23,12 +23,12 @@ def check_asymptotic_design(design: AsymptoticDesign) -> AsymptoticDesign:
     if surface.smoothing is not None and surface.file is None:
         raise InvalidDesign(f"surface.smoothing is for a mesh file, and {given[0]} is exact; remove it")
     if pattern.creases * pattern.columns * 6 > MAX_FACES:
-        raise InvalidDesign(f"pattern.creases × pattern.columns = {pattern.creases * pattern.columns} per sector are more than "
-                            "plisse solves; lower one of them")
+        raise InvalidDesign(f"pattern.creases × pattern.columns = {pattern.creases * pattern.columns} per sector are more "
+                            "than plisse solves; lower one of them")
     if pattern.amplitude is not None and pattern.width is not None and not 0.02 < pattern.amplitude / pattern.width < 10:
-        raise InvalidDesign(f"pattern.amplitude is {pattern.amplitude:g} and pattern.width {pattern.width:g}; give an amplitude "
-                            "of about half the width")
-    if None not in (pattern.hub_size, pattern.reach) and pattern.hub_size >= pattern.reach:  # type: ignore[operator]
-        raise InvalidDesign(f"pattern.hub_size is {pattern.hub_size:g} and pattern.reach {pattern.reach:g}, so that no columns "
-                            "have room between them; give a smaller hub_size")
+        raise InvalidDesign(f"pattern.amplitude is {pattern.amplitude:g} and pattern.width {pattern.width:g}; give an "
+                            "amplitude of about half the width")
+    if pattern.hub_size is not None and pattern.reach is not None and pattern.hub_size >= pattern.reach:
+        raise InvalidDesign(f"pattern.hub_size is {pattern.hub_size:g} and pattern.reach {pattern.reach:g}, so that no "
+                            "columns have room between them; give a smaller hub_size")
     return design

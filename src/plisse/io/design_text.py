@@ -5,12 +5,12 @@ from collections.abc import Iterator
 import msgspec
 
 from plisse.io.toml import toml_text
-from plisse.recipe import Design, SurfaceDesign
+from plisse.recipe import Recipe
 
 __all__ = ["design_text"]
 
 
-def design_text(recipe: Design | SurfaceDesign, *, title: str = "") -> str:
+def design_text(recipe: Recipe, *, title: str = "") -> str:
     """The design as text without keys that have their default; it reads back as the same design."""
     return toml_text({"units": recipe.units, **_concise(recipe)}, comment=title)
 

@@ -34,7 +34,8 @@ SECTIONS = {"": Design, "pattern": Pattern, "march": March, "solve": Solve, "par
 SURFACE_SECTIONS = {"": SurfaceDesign, "surface": Surface, "pattern": SurfacePattern, "solve": Solve,
                     "strips": Strips}
 ASYMPTOTIC_SECTIONS = {"": AsymptoticDesign, "surface": AsymptoticSurface, "pattern": AsymptoticPattern}
-TABLES = {"surface.weierstrass": WeierstrassData, "surface.guide_section": Section, "surface.handles": Pull, "parallel.moves": Move}
+TABLES = {"surface.weierstrass": WeierstrassData, "surface.guide_section": Section, "surface.handles": Pull,
+          "parallel.moves": Move}
 KINDS = {"curve": Curve, "closed_form": ClosedForm}
 
 

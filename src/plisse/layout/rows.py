@@ -72,8 +72,9 @@ class Rows:
         return replace(self, radii=radii)
 
     def moved(self, move: np.ndarray, least: float) -> "Rows":
-        """Rows with radii changed by `move` (n, m), none below `least`."""
-        return self.with_radii(np.maximum(self.radii + move, least))
+        """Rows with radii changed by `move` (n, m), the first not below `least`, and no two nearer than that."""
+        floor = least * np.arange(len(self.radii))[:, None]
+        return self.with_radii(np.maximum.accumulate(np.maximum(self.radii + move - floor, least), axis=0) + floor)
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,5 +15,7 @@ from plisse.recipe.surface import Pull, Section, Surface, SurfaceDesign, Surface
 
 __all__ = ["MILLIMETRES", "Arc", "AsymptoticDesign", "AsymptoticPattern", "AsymptoticSurface", "ClosedForm", "Cones",
            "ConicCreases", "Curve", "Design", "Ellipse", "HelicalPleats", "Helix", "March", "Miura", "Move", "Parallel",
-           "Pattern", "Points", "Pull", "Section", "Solve", "Spline", "Strips", "Surface", "SurfaceDesign", "SurfacePattern",
-           "TorusKnot", "WeierstrassData"]
+           "Pattern", "Points", "Pull", "Recipe", "Section", "Solve", "Spline", "Strips", "Surface", "SurfaceDesign",
+           "SurfacePattern", "TorusKnot", "WeierstrassData"]
+
+Recipe = Design | SurfaceDesign | AsymptoticDesign

@@ -10,13 +10,15 @@ from plisse.errors import Infeasible
 from plisse.layout.asymptotic.pattern import AsymptoticLayout
 from plisse.measure.intersection import intersecting_faces
 from plisse.measure.regularity import Regularity, regularity
-from plisse.solve.singular import Recipe, Solved, Zigzag, polished, relaxed
+from plisse.solve.singular import Hold, Solved, Zigzag, polished, relaxed
 from plisse.solve.workspace import Workspace
 
 __all__ = ["Raised", "Way", "finer", "raised", "zigzag_over"]
 
 CONVERGED = 1e-11
 COMFORTABLE = np.radians(15.0)
+HOLD, STRONGER, LOOSE = Hold(0.3, 0.25), Hold(0.3, 1.0), Hold(0.1, 0.25, 2)
+STEPS = (0.5, 0.65, 0.8, 0.9, 1.0)
 BEFORE = 4  # vertices of a crease from which displacements are interpolated by cubics
 
 
@@ -26,7 +28,7 @@ class Way:
     that is left in a singularity."""
 
     heights: tuple[float, ...] = (1.0,)
-    recipe: Recipe = Recipe()
+    hold: Hold = HOLD
     taper: float = 1.0
 
     @property
@@ -34,12 +36,11 @@ class Way:
         """The way in words."""
         return ("at once" if len(self.heights) == 1 else f"raised in {len(self.heights)} steps") + \
             (f", amplitude {self.taper:g} times as large in the middle" if self.taper < 1 else "") + \
-            f", held by {self.recipe.closeness:g} and {self.recipe.height:g}"
+            f", held by {self.hold.closeness:g} and {self.hold.height:g}"
 
 
-STEPS = (0.5, 0.65, 0.8, 0.9, 1.0)
-WAYS = (Way(), Way(recipe=Recipe(0.3, 1.0)), Way(recipe=Recipe(0.1, 0.25, 2)), Way(STEPS), Way(STEPS, Recipe(0.3, 1.0)),
-        Way(STEPS, Recipe(0.1, 0.25, 2)), Way(STEPS, taper=0.4), Way(STEPS, Recipe(0.3, 1.0), 0.4))
+WAYS = (Way(), Way(hold=STRONGER), Way(hold=LOOSE), Way(STEPS), Way(STEPS, STRONGER), Way(STEPS, LOOSE),
+        Way(STEPS, taper=0.4), Way(STEPS, STRONGER, 0.4))
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,9 +59,14 @@ class Raised:
         return regularity(self.zigzag.topology, self.solved.vertices)
 
     @property
+    def is_exact(self) -> bool:
+        """Whether the minimum-norm steps converged."""
+        return self.solved.defect < CONVERGED
+
+    @property
     def is_sound(self) -> bool:
         """Whether it is exact, regular, folded as labelled and at the height asked for."""
-        return bool(self.height == 1 and self.solved.defect < CONVERGED and self.regularity.is_regular
+        return bool(self.height == 1 and self.is_exact and self.regularity.is_regular
                     and not self.zigzag.against_labels(self.solved.vertices).any())
 
     @property
@@ -71,8 +77,7 @@ class Raised:
     @property
     def rank(self) -> tuple:
         """Sort key: soundness, exactness and height, then comfort."""
-        exact = self.solved.defect < CONVERGED
-        return self.is_sound, exact, self.height, self.comfort if exact else -self.solved.defect
+        return self.is_sound, self.is_exact, self.height, self.comfort if self.is_exact else -self.solved.defect
 
     @property
     def account(self) -> str:
@@ -90,7 +95,8 @@ def zigzag_over(layout: AsymptoticLayout, amplitude: float, taper: float = 1.0) 
     if taper < 1 and net.hubs:
         away = np.min([np.abs(net.places - hub) for hub in net.hubs], axis=0)
         share = taper + (1 - taper) * np.clip(away / (0.7 * away.max()), 0, 1)
-    return Zigzag(layout.topology, layout.points, layout.normals, layout.labels.of_creases[net.crease], layout.labels.repeats,
+    labels = layout.labels
+    return Zigzag(layout.topology, layout.points, layout.normals, labels.of_creases[net.crease], labels.repeats,
                   share * amplitude)
 
 
@@ -111,9 +117,9 @@ def _by(way: Way, layout: AsymptoticLayout, amplitude: float, workspace: Workspa
     displacement, last = np.zeros_like(whole.feet), None
     for height in way.heights:
         zigzag = whole if height == 1 else whole.raised(height)
-        solved = relaxed(zigzag, displacement, way.recipe, workspace)
+        solved = relaxed(zigzag, displacement, way.hold, workspace)
         current = Raised(layout, zigzag, solved, way, height)
-        if not (solved.defect < CONVERGED and current.regularity.is_regular):
+        if not (current.is_exact and current.regularity.is_regular):
             return current if last is None or height == 1 else last
         displacement, last = solved.vertices - zigzag.vertices, current
     assert last is not None

@@ -14,7 +14,8 @@ from plisse.solve.seams import even_columns, seam_counts, worst_columns
 
 __all__ = ["Jobs", "best_of", "stages"]
 
-GENTLE = Trim(rounds=10, worst=0.004, hold=0.1)  # with seams few quads are in the way
+GENTLE = Trim(rounds=10, worst=0.004, hold=0.1)  # where few quads are in the way: with seams, or near the goal
+PATCHY = 0.1  # lack from which quads must go faster
 HOLDS = (0.03, 0.3, 0.0)
 FINALISTS = 3
 NOTABLE = 0.1  # coverage for which sheets are cut apart unasked
@@ -71,8 +72,9 @@ def _second(tried: list[Candidate]) -> Jobs:
     """The best candidates again, held nearer to the reference or left freer; with seams, the best of several layouts."""
     ranked = sorted(tried, key=lambda candidate: candidate.rank, reverse=True)
     apart = {id(candidate.layout): candidate for candidate in reversed(ranked) if candidate.seams}
-    finalists = [candidate for candidate in ranked if candidate is apart.get(id(candidate.layout), candidate)][:FINALISTS]
+    finalists = [candidate for candidate in ranked if candidate is apart.get(id(candidate.layout), candidate)]
+    finalists = finalists[:max(1, min(FINALISTS, len(finalists) // 2))]
     jobs = [(candidate, hold) for candidate in finalists for hold in HOLDS]
     for k, (candidate, hold) in enumerate(jobs):
-        trim = replace(GENTLE if candidate.seams else Trim(), hold=hold)
+        trim = replace(GENTLE if candidate.lack < PATCHY else Trim(), hold=hold)
         yield k / len(jobs), candidate.layout, trim, candidate.seams

@@ -19,7 +19,7 @@ from plisse.solve.polish import polish
 from plisse.solve.workspace import Workspace
 from plisse.structure.topology import Topology
 
-__all__ = ["Recipe", "Solved", "Zigzag", "polished", "relaxed"]
+__all__ = ["Hold", "Solved", "Zigzag", "polished", "relaxed"]
 
 WEIGHTS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5)
 POLISH_STEPS = 20
@@ -64,8 +64,11 @@ class Zigzag:
 
 
 @dataclass(frozen=True)
-class Recipe:
-    """How strongly vertices are held: by `closeness` to the zigzag and by the `height` over neighbouring creases."""
+class Hold:
+    """How strongly vertices are held: by `closeness` to the zigzag and by their `height` over neighbouring creases.
+
+    Every weight of the relaxation gets `steps` steps.
+    """
 
     closeness: float = 0.3
     height: float = 0.25
@@ -81,17 +84,17 @@ class Solved:
     iterations: int
 
 
-def relaxed(zigzag: Zigzag, displacement: np.ndarray, recipe: Recipe, workspace: Workspace,
+def relaxed(zigzag: Zigzag, displacement: np.ndarray, hold: Hold, workspace: Workspace,
             weights: tuple[float, ...] = WEIGHTS) -> Solved:
     """The structure near a zigzag, sought from a first `displacement` (V, 3): relaxation, then minimum-norm steps."""
     topology, scale = zigzag.topology, zigzag.unit
     rest = np.ascontiguousarray(zigzag.vertices.T / scale)
     start = np.ascontiguousarray((zigzag.vertices + displacement).T / scale)
-    extra = [*_same_label(zigzag, rest), *kept_amplitude(topology, rest, zigzag.normals.T, zigzag.repeats, recipe.height)]
+    extra = [*_same_label(zigzag, rest), *kept_amplitude(topology, rest, zigzag.normals.T, zigzag.repeats, hold.height)]
     try:
-        found = anneal(topology, start, rest=rest, weights=weights, steps=recipe.steps, extra=extra, workspace=workspace,
-                       fairness={"same_side": 0.0, "closeness": recipe.closeness})
-        return polished(zigzag, found.T * scale, workspace, recipe.steps * len(weights))
+        found = anneal(topology, start, rest=rest, weights=weights, steps=hold.steps, extra=extra, workspace=workspace,
+                       fairness={"same_side": 0.0, "closeness": hold.closeness})
+        return polished(zigzag, found.T * scale, workspace, hold.steps * len(weights))
     except NotPositiveDefinite:
         return Solved(zigzag.vertices, np.inf, 0)
 
@@ -110,6 +113,9 @@ def _same_label(zigzag: Zigzag, rest: np.ndarray) -> list[Term]:
         for label in (-1, 1):
             mine = line.vertices[zigzag.labels[line.vertices] == label]
             triples.append(np.stack([mine[:-2], mine[1:-1], mine[2:]], axis=1))
-    index = np.concatenate(triples)
-    return [Term("same_label", second_difference, tuple(Rows("vertices", column) for column in index.T), 1.0,
-                 {"rest": second_difference.residual(*(rest[:, column] for column in index.T), rest=0.0)})] if len(index) else []
+    index = np.concatenate(triples).T
+    if not index.size:
+        return []
+    at_rest = second_difference.residual(*(rest[:, column] for column in index), rest=0.0)
+    return [Term("same_label", second_difference, tuple(Rows("vertices", column) for column in index), 1.0,
+                 {"rest": at_rest})]

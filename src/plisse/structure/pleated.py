@@ -156,3 +156,18 @@ class PleatedStructure:
 
         faces, owner = triangulated(self.topology)
         return Trimesh(self.vertices, faces, face_attributes={"face": owner}, process=False)
+
+    def plot(self, ax=None, *, flat: bool = False):
+        """The matplotlib axes with the folded structure (3D axes) or its flat sheet (plane axes, or `flat`) on them.
+
+        Without axes a figure is made. Raises InvalidStructure for the sheet of a structure without development.
+        """
+        from plisse.draw.axes import plot
+
+        return plot(self, ax, flat=flat)
+
+    def _repr_html_(self) -> str:
+        """A few numbers and a picture, for notebooks."""
+        from plisse.draw.notebook import structure_html
+
+        return structure_html(self)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from functools import cached_property
 
 from plisse.errors import InvalidStructure
-from plisse.recipe import Design, SurfaceDesign
+from plisse.recipe import Recipe
 from plisse.result import Result
 from plisse.session import Session
 from plisse.structure.pleated import PleatedStructure
@@ -22,15 +22,15 @@ class Bench:
         self._session: Session | None = None
         self._held: _Held | None = None
 
-    def result(self, recipe: Design | SurfaceDesign, progress: Progress | None = None) -> Result:
+    def result(self, recipe: Recipe, progress: Progress | None = None) -> Result:
         """What the recipe comes to; errors are those of `plisse.design`."""
         return self._of(recipe, progress).result
 
-    def motion(self, recipe: Design | SurfaceDesign) -> Motion:
+    def motion(self, recipe: Recipe) -> Motion:
         """The motion of the recipe's structure; raises InvalidStructure where it is not principal."""
         return self._of(recipe, None).motion
 
-    def _of(self, recipe: Design | SurfaceDesign, progress: Progress | None) -> "_Held":
+    def _of(self, recipe: Recipe, progress: Progress | None) -> "_Held":
         if self._held is None or self._held.recipe != recipe:
             if self._session is None:
                 self._session = Session(recipe, progress=progress)
@@ -44,7 +44,7 @@ class Bench:
 class _Held:
     """A recipe with its result and, once asked for, its motion."""
 
-    def __init__(self, recipe: Design | SurfaceDesign, result: Result):
+    def __init__(self, recipe: Recipe, result: Result):
         self.recipe, self.result = recipe, result
 
     @cached_property

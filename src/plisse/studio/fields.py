@@ -1,6 +1,7 @@
 """What of a design can be set by a control: keys, words and limits, read from the types of the recipe."""
 
 import math
+import re
 import tomllib
 from dataclasses import dataclass
 from typing import Literal
@@ -10,7 +11,7 @@ from msgspec import inspect
 
 from plisse.errors import InvalidDesign
 from plisse.io.toml import toml_text
-from plisse.recipe import Design, SurfaceDesign
+from plisse.recipe import Recipe
 
 __all__ = ["Field", "fields_of", "value_of_text"]
 
@@ -54,9 +55,9 @@ class Field:
         return self.key.partition(".")[0]
 
 
-def fields_of(recipe: Design | SurfaceDesign) -> list[Field]:
+def fields_of(recipe: Recipe) -> list[Field]:
     """All controls for a recipe, section by section; keys that are not set and have no default are left out."""
-    found = []
+    found: list[Field | None] = []
     for section in SECTIONS:
         struct = getattr(recipe, section, None)
         if struct is None:
@@ -67,7 +68,7 @@ def fields_of(recipe: Design | SurfaceDesign) -> list[Field]:
             key, value = f"{section}.{entry.name}", getattr(struct, entry.name)
             if key not in LEFT_OUT and value is not None and not isinstance(value, msgspec.Struct):
                 field = _field(key, value, entry.type, recipe.units)
-                found += [] if field is None else [field]
+                found.append(field)
                 if field is not None and field.kind == "slider" and key in LISTED:
                     found.append(_field(key, [value], entry.type, recipe.units))
     return [field for field in found if field is not None]
@@ -95,12 +96,16 @@ def _field(key: str, value, kind: inspect.Type, units: str) -> Field | None:
         choices = _choices(kind)
         return Field(key, label, "choice", value, choices=choices) if choices else None
     if isinstance(value, list | tuple):
-        shown = value[0] if len(value) == 1 else value
-        return Field(key, f"{label}, one by one", "list", toml_text({"v": shown}).partition(" = ")[2].strip())
+        shown = value[0] if len(value) == 1 else list(value)
+        text = toml_text({"v": shown}).partition(" = ")[2].strip()
+        return Field(key, f"{label}, one by one", "list", re.sub(r"\.0\b", "", text))
     return _number(key, label, value, kind)
 
 
 def _number(key: str, label: str, value: float, kind: inspect.Type) -> Field:
+    choices = _choices(kind)
+    if choices:
+        return Field(key, label, "whole", value, int(choices[0]), int(choices[-1]), 1)
     low, high = _limits(kind)
     if isinstance(value, int) and _is_whole(kind):
         if key.endswith(".samples"):
@@ -137,7 +142,7 @@ def _limits(kind: inspect.Type) -> tuple[float, float]:
         if isinstance(part, inspect.FloatType | inspect.IntType):
             low, high = (part.gt if part.ge is None else part.ge), (part.lt if part.le is None else part.le)
             least, most = -FARTHEST if low is None else float(low), FARTHEST if high is None else float(high)
-            inside = min(0.5, 0.005 * (most - least))
+            inside = min(0.5, 10.0 ** math.floor(math.log10(0.01 * (most - least))))
             return least + inside * (part.gt is not None), most - inside * (part.lt is not None)
     return -FARTHEST, FARTHEST
 

@@ -1,4 +1,4 @@
-"""Who may talk to the studio: requests for this machine by name, from pages of this studio, with the token where one is set."""
+"""Who may talk to the studio: requests to this machine by name, from pages of this studio, with the token if one is set."""
 
 import hmac
 import ipaddress
@@ -56,7 +56,7 @@ class Gate:
 
     def _is_ours(self, netloc: str) -> bool:
         try:
-            name = urlsplit(f"//{netloc}").hostname or ""
+            name = "" if "@" in netloc else urlsplit(f"//{netloc}").hostname or ""
         except ValueError:
             return False
         if name in LOCAL or (name == self.host.lower() and name):

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from plisse.draw import colours
-from plisse.recipe import Design, Points, Spline, SurfaceDesign
+from plisse.recipe import Points, Recipe, Spline
 
 if TYPE_CHECKING:
     from viser import ClientHandle
@@ -19,7 +19,7 @@ MOST = 40
 PLANES = {"xy": 2, "xz": 1, "yz": 0}
 
 
-def control_points_of(recipe: Design | SurfaceDesign) -> np.ndarray | None:
+def control_points_of(recipe: Recipe) -> np.ndarray | None:
     """The points (N, 3) that can be pulled; None where the curve has none, or so many that it is a measurement."""
     curve = getattr(recipe, "curve", None)
     if not isinstance(curve, Spline | Points) or curve.points is None or len(curve.points) > MOST:
@@ -53,7 +53,7 @@ class Handles:
     def __init__(self, client: ClientHandle, moved: Callable[[int, np.ndarray], None], chosen: Callable[[int], None]):
         self._client, self._moved, self._chosen = client, moved, chosen
         self._balls: list = []
-        self._arrows = None
+        self.arrows: Any = None
         self._points = np.empty((0, 3))
         self.index = 0
         self.is_pulled = False
@@ -72,8 +72,8 @@ class Handles:
     def choose(self, index: int) -> None:
         """Put the arrows on another point."""
         self.index = index
-        if self._arrows is not None and index < len(self._points):
-            self._arrows.position = self._points[index]
+        if self.arrows is not None and index < len(self._points):
+            self.arrows.position = self._points[index]
 
     def _make(self, points: np.ndarray, size: float) -> None:
         for ball in self._balls:
@@ -94,18 +94,18 @@ class Handles:
 
     def _place_arrows(self, size: float) -> None:
         if not len(self._points):
-            if self._arrows is not None:
-                self._arrows.remove()
-                self._arrows = None
+            if self.arrows is not None:
+                self.arrows.remove()
+                self.arrows = None
             return
         self.index = min(self.index, len(self._points) - 1)
-        if self._arrows is None:
-            self._arrows = self._client.scene.add_transform_controls(
+        if self.arrows is None:
+            self.arrows = self._client.scene.add_transform_controls(
                 "/arrows", scale=0.3 * size, disable_rotations=True, depth_test=False,
                 translation_limits=((-1e9, 1e9), (-1e9, 1e9), (-1e9, 1e9)), position=self._points[self.index])
-            self._arrows.on_update(self._pulled)
+            self.arrows.on_update(self._pulled)
         elif not self.is_pulled:
-            self._arrows.position = self._points[self.index]
+            self.arrows.position = self._points[self.index]
 
     async def _pulled(self, event) -> None:
         self.is_pulled = event.phase != "end"

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from plisse.errors import InvalidDesign
-from plisse.io.designs import design_from_dict
 from plisse.io.design_text import design_text
-from plisse.recipe import Design, SurfaceDesign
+from plisse.io.designs import design_from_dict
+from plisse.recipe import Recipe
 from plisse.session import changed
 from plisse.studio.shelf import Shelf
 
@@ -24,7 +24,7 @@ LONGEST_TEXT = 1_000_000
 class Step:
     """A design with its title."""
 
-    recipe: Design | SurfaceDesign
+    recipe: Recipe
     title: str
 
     @cached_property
@@ -40,7 +40,7 @@ class Desk:
     refused leaves the desk as it was.
     """
 
-    def __init__(self, recipe: Design | SurfaceDesign, title: str = "", *, clock: Callable[[], float] = time.monotonic):
+    def __init__(self, recipe: Recipe, title: str = "", *, clock: Callable[[], float] = time.monotonic):
         self.shelf = Shelf()
         self._steps = [Step(self.shelf.adopt(recipe), title)]
         self._at = 0
@@ -53,7 +53,7 @@ class Desk:
         return self._steps[self._at]
 
     @property
-    def recipe(self) -> Design | SurfaceDesign:
+    def recipe(self) -> Recipe:
         """The recipe on screen."""
         return self.step.recipe
 
@@ -63,7 +63,7 @@ class Desk:
         return self.step.toml
 
     @property
-    def solvable(self) -> Design | SurfaceDesign:
+    def solvable(self) -> Recipe:
         """The recipe with the places of its files."""
         return self.shelf.placed(self.recipe)
 
@@ -91,7 +91,7 @@ class Desk:
         self._last = keys, now
         return True
 
-    def open(self, recipe: Design | SurfaceDesign, title: str) -> None:
+    def open(self, recipe: Recipe, title: str) -> None:
         """Put another design on the desk, as a step that can be undone."""
         self._push(Step(self.shelf.adopt(recipe), title))
 

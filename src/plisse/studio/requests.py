@@ -1,7 +1,7 @@
 """What a client can ask of its process; every request is one or two calls of the library, as a script would make them."""
 
-from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -10,27 +10,45 @@ from plisse.draw.colour_maps import colour_maps, deviation_of
 from plisse.draw.plates import plates_mesh
 from plisse.errors import InvalidStructure
 from plisse.geometry.curves import seed_curve
-from plisse.recipe import MILLIMETRES, Design, SurfaceDesign
+from plisse.io.meshes import read_mesh
+from plisse.recipe import MILLIMETRES, Recipe, SurfaceDesign
 from plisse.result import Report, Result
 from plisse.structure.front import front_up
 from plisse.structure.place import vertex_named
 from plisse.structure.pleated import PleatedStructure
 from plisse.studio.bench import Bench, Progress, required
+from plisse.studio.candidates import candidates_of
+from plisse.studio.downloads import made
 from plisse.studio.view import Tint, View, flat_view, folded_view, tinted
 from plisse.transform.collisions import FreeRange
 from plisse.transform.offset import offset_range
 
-__all__ = ["Candidates", "Colour", "Fetch", "Found", "Pose", "Reach", "Request", "Solid", "Solve"]
+__all__ = [
+    "Candidates",
+    "Colour",
+    "Fetch",
+    "Found",
+    "Mesh",
+    "Pose",
+    "Reach",
+    "Request",
+    "Solid",
+    "Solve",
+    "Take",
+]
 
-Recipe = Design | SurfaceDesign
 CURVE_POINTS = 400
 
 
 class Request:
-    """A question with the seconds it may take; a newer one of the same `lane` makes it stale."""
+    """A question with the seconds it may take; a newer one of the same lane makes it stale."""
 
-    lane: ClassVar[str]
     limit: ClassVar[float] = 30.0
+
+    @property
+    def lane(self) -> str:
+        """What kind of question it is."""
+        return type(self).__name__
 
     def run(self, bench: Bench, progress: Progress) -> Any:
         """The answer; errors that plisse foresees are raised."""
@@ -61,7 +79,6 @@ class Found:
 class Solve(Request):
     """The structure of a recipe; `framed` asks for a camera as well."""
 
-    lane: ClassVar[str] = "solve"
     limit: ClassVar[float] = 300.0
     recipe: Recipe
     framed: bool = False
@@ -71,23 +88,18 @@ class Solve(Request):
         """Everything the scene needs."""
         result = bench.result(self.recipe, progress)
         structure, report = result.structure, result.report
-        found = {"seed": _seed(self.recipe), "reference": _reference(result)}
+        found = Found(report, self.drafted, seed=_seed(self.recipe), reference=_reference(result))
         if structure is None:
-            return Found(report, self.drafted, **found)
-        if structure.development is not None:
-            found["sheet"] = flat_view(structure)
-        if report.development is not None and report.development.overlap_at_mm is not None:
-            found["overlap"] = _overlap(structure, report)
-        if self.framed:
-            found["axes"] = best_view(structure).axes
-        return Found(report, self.drafted, folded=folded_view(structure), trouble=_trouble(structure, report), **found)
+            return found
+        return replace(found, folded=folded_view(structure), trouble=_trouble(structure, report),
+                       sheet=None if structure.development is None else flat_view(structure),
+                       overlap=_overlap(structure, report), axes=best_view(structure).axes if self.framed else None)
 
 
 @dataclass(frozen=True)
 class Pose(Request):
     """A state of the motion: 0 flat, 100 as designed, 200 folded flat."""
 
-    lane: ClassVar[str] = "pose"
     recipe: Recipe
     percent: float
 
@@ -101,7 +113,6 @@ class Pose(Request):
 class Colour(Request):
     """A colour map of a structure by name."""
 
-    lane: ClassVar[str] = "colour"
     recipe: Recipe
     name: str
 
@@ -116,11 +127,10 @@ class Colour(Request):
 
 @dataclass(frozen=True)
 class Solid(Request):
-    """Plates of a thickness, or the offset at a distance, instead of the structure; lengths are in model units."""
+    """What the structure is shown as: "plates" of a thickness, or the "offset" at a distance, in model units."""
 
-    lane: ClassVar[str] = "solid"
     recipe: Recipe
-    kind: Literal["plates", "offset"]
+    kind: str
     length: float
 
     def run(self, bench: Bench, progress: Progress) -> View:
@@ -135,7 +145,6 @@ class Solid(Request):
 class Fetch(Request):
     """The whole result, as another process or a download needs it."""
 
-    lane: ClassVar[str] = "fetch"
     limit: ClassVar[float] = 300.0
     recipe: Recipe
 
@@ -148,7 +157,6 @@ class Fetch(Request):
 class Reach(Request):
     """How far a structure moves, and how far it can be offset to both sides."""
 
-    lane: ClassVar[str] = "reach"
     limit: ClassVar[float] = 120.0
     structure: PleatedStructure
 
@@ -161,16 +169,45 @@ class Reach(Request):
 class Candidates(Request):
     """Automatic layouts over a surface, all of them as one picture and each as a design."""
 
-    lane: ClassVar[str] = "candidates"
     limit: ClassVar[float] = 300.0
     recipe: SurfaceDesign
     count: int = 6
 
-    def run(self, bench: Bench, progress: Progress) -> "tuple[bytes, list[tuple[str, dict]]]":
+    def run(self, bench: Bench, progress: Progress) -> tuple[bytes, list[tuple[str, dict]]]:
         """PNG bytes, and for every candidate what it says and the changes that make it the design."""
-        from plisse.studio.candidates import candidates_of
-
         return candidates_of(self.recipe, self.count, progress)
+
+
+@dataclass(frozen=True)
+class Mesh(Request):
+    """Whether a file that was uploaded is a surface; `name` is that by which designs mean it."""
+
+    limit: ClassVar[float] = 60.0
+    path: str
+    name: str
+
+    def run(self, bench: Bench, progress: Progress) -> int:
+        """The number of its triangles; raises InvalidMesh for what is no surface."""
+        return len(read_mesh(self.path).triangles)
+
+
+@dataclass(frozen=True, eq=False)
+class Take(Request):
+    """A file made of a result, of one of the kinds of `plisse.studio.downloads`."""
+
+    limit: ClassVar[float] = 300.0
+    result: Result
+    title: str
+    kind: str
+
+    @property
+    def lane(self) -> str:
+        """Files of different kinds do not push each other out."""
+        return f"Take {self.kind}"
+
+    def run(self, bench: Bench, progress: Progress) -> bytes:
+        """The content of the file."""
+        return made(self.result, self.title, self.kind)
 
 
 def _seed(recipe: Recipe) -> np.ndarray | None:
@@ -195,10 +232,10 @@ def _trouble(structure: PleatedStructure, report: Report) -> np.ndarray | None:
     return None
 
 
-def _overlap(structure: PleatedStructure, report: Report) -> np.ndarray:
+def _overlap(structure: PleatedStructure, report: Report) -> np.ndarray | None:
     """The place where the sheet overlaps, in the frame of its view."""
-    assert report.development is not None
-    assert structure.development is not None
+    if structure.development is None or report.development is None or report.development.overlap_at_mm is None:
+        return None
     place = np.array(report.development.overlap_at_mm) / MILLIMETRES[report.units]
     mirrored = not np.shares_memory(front_up(structure), structure.development)
     return place * [-1.0, 1.0] if mirrored else place

@@ -16,11 +16,16 @@ if TYPE_CHECKING:
 
 __all__ = ["Scene", "Shown"]
 
-INKS = {"mountain": (colours.MOUNTAIN, 2.2), "valley": (colours.VALLEY, 2.2), "flat": (colours.RULING, 1.2),
-        "boundary": (colours.EDGE, 1.6), "ruling": (colours.RULING, 0.7)}
+INKS = {"mountain": (colours.MOUNTAIN, 1.6), "valley": (colours.VALLEY, 1.6), "flat": (colours.RULING, 1.2),
+        "boundary": (colours.EDGE, 1.4), "ruling": (colours.RULING, 0.7)}
 GLASS = "#7f9bb0"
 SEED, MARK = colours.INK, colours.MOUNTAIN
+MARKS = ("/trouble", "/trouble/words", "/seed")
 APART, SMALLEST = 0.12, 0.72
+FIELD_OF_VIEW = np.radians(30)
+DIRECTION = np.array([-0.5, 0.6, 0.62])  # right, up, towards the viewer
+SUNLIGHT, SKYLIGHT, GROUND = (255, 246, 232), (255, 255, 255), (196, 178, 160)
+SUN, SKY = 2.3, 1.9
 
 
 @dataclass
@@ -43,9 +48,6 @@ class Scene:
         self._found: Found | None = None
         self._axes = np.eye(3)
         self._tint = None
-        client.scene.world_axes.visible = False
-        background = np.round(255 * colours.rgb(colours.BACKGROUND)).astype(np.uint8)
-        client.scene.set_background_image(np.broadcast_to(background, (2, 2, 3)))
         self._folded, self._sheet = _Paper(client.scene, "/folded"), _Paper(client.scene, "/sheet")
 
     @property
@@ -57,6 +59,12 @@ class Scene:
         points = found.folded.points
         middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
         return middle, float(np.linalg.norm(points - middle, axis=1).max())
+
+    @property
+    def height_of_paper(self) -> float:
+        """Smallest extent of the paper as it is on screen: that of the flat sheet is 0."""
+        points = self._folded.points
+        return float(np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[-1] / np.sqrt(len(points)))
 
     def show(self, found: Found) -> None:
         """Show a solved design; what it lacks disappears."""
@@ -70,18 +78,19 @@ class Scene:
             self._show_reference(found)
 
     def pose(self, view: View | None) -> None:
-        """Show another state, or plates, instead of the structure."""
-        self._drop_tint()
-        self._folded.show(view, self.shown)
+        """Show another state, or plates, instead of the structure; marks that belong to it disappear."""
+        with self._client.atomic():
+            self._drop_tint()
+            self._folded.show(view, self.shown)
+            for name in MARKS:
+                self._scene.remove_by_name(name)
 
     def tint(self, tint: Tint) -> None:
         """Lay colours over the structure."""
-        from trimesh import Trimesh
-
-        self._drop_tint()
-        self._folded.hide_paper()
-        mesh = Trimesh(tint.points, tint.triangles, vertex_colors=tint.colours, process=False)
-        self._tint = self._scene.add_mesh_trimesh("/colours", mesh)
+        with self._client.atomic():
+            self._drop_tint()
+            self._folded.hide_paper()
+            self._tint = self._scene.add_mesh_trimesh("/colours", _textured(tint), cast_shadow=False, receive_shadow=False)
 
     def redraw(self) -> None:
         """Show the last design again, after a switch was turned."""
@@ -97,9 +106,21 @@ class Scene:
             side = self._sheet_place(found)[2]
             middle, radius = middle + 0.5 * side * right, radius + 0.5 * side
         camera = self._client.camera
-        camera.up_direction = self._axes[1]
-        camera.position = middle + self._axes[2] * radius * 2.9
+        half = np.arctan(np.tan(0.5 * FIELD_OF_VIEW) * min(1.0, camera.aspect))
+        camera.fov = FIELD_OF_VIEW
+        distance = 1.05 * radius / np.sin(half)
+        camera.near, camera.far = 0.002 * distance, 50 * distance
+        camera.position = middle + self._axes[2] * distance
         camera.look_at = middle
+        camera.up_direction = self._axes[1]
+        self._light(middle, radius)
+
+    def _light(self, middle: np.ndarray, radius: float) -> None:
+        """Light from the upper left, as in the pictures of the command line, and from the sky."""
+        self._scene.add_light_directional("/sun", color=SUNLIGHT, intensity=SUN, cast_shadow=False,
+                                          position=middle + 20 * radius * (DIRECTION @ self._axes))
+        self._scene.add_light_hemisphere("/sky", sky_color=SKYLIGHT, ground_color=GROUND, intensity=SKY,
+                                         position=middle + self._axes[1])
 
     def _drop_tint(self) -> None:
         if self._tint is not None:
@@ -134,8 +155,6 @@ class Scene:
         return corner @ self._axes, float(scale), float(gap + scale * size[0])
 
     def _show_marks(self, found: Found) -> None:
-        for name in ("/trouble", "/trouble/words", "/seed"):
-            self._scene.remove_by_name(name)
         if found.seed is not None and self.shown.seed:
             line = np.stack([found.seed[:-1], found.seed[1:]], axis=1).astype(np.float32)
             self._scene.add_line_segments("/seed", line, _bytes(SEED), thickness=3.0, thickness_units="screen")
@@ -163,15 +182,20 @@ class _Paper:
         self._sides: list = []
         self._lines: dict = {}
 
+    @property
+    def points(self) -> np.ndarray:
+        """Points (N, 3) of the paper on screen."""
+        return np.asarray(self._sides[0].vertices, dtype=float)
+
     def show(self, view: View | None, shown: Shown) -> None:
         """Show a view; None for nothing."""
         self._frame.visible = view is not None
         if view is None:
             return
         if not self._sides:
-            self._sides = [self._scene.add_mesh_simple(f"{self._name}/{side}", view.points, view.triangles, color=_bytes(ink),
-                                                       side=side, receive_shadow=False, cast_shadow=False)
-                           for side, ink in (("front", colours.PAPER), ("back", colours.BACK_OF_PAPER))]
+            self._sides = [self._scene.add_mesh_simple(
+                f"{self._name}/{side}", view.points, view.triangles, color=_bytes(ink), side=side, receive_shadow=False,
+                cast_shadow=False) for side, ink in (("front", colours.PAPER), ("back", colours.BACK_OF_PAPER))]
         for mesh in self._sides:
             mesh.vertices, mesh.faces = view.points, view.triangles
             mesh.visible = True
@@ -200,6 +224,22 @@ class _Paper:
             node.points = segments
         if node is not None:
             node.visible = wanted
+
+
+def _textured(tint: Tint):
+    """A trimesh.Trimesh with the scale as its texture, the last pixel for what is unknown."""
+    from PIL import Image
+    from trimesh import Trimesh
+    from trimesh.visual import TextureVisuals
+    from trimesh.visual.material import PBRMaterial
+
+    unknown = np.round(255 * colours.rgb(colours.UNKNOWN)).astype(np.uint8)
+    strip = np.concatenate([tint.bar, unknown[None]])[None].repeat(2, axis=0)
+    last = len(tint.bar)
+    column = np.where(np.isnan(tint.shares), last, np.nan_to_num(tint.shares) * (last - 1))
+    places = np.column_stack([(column + 0.5) / (last + 1), np.full(len(column), 0.5)])
+    paint = PBRMaterial(baseColorTexture=Image.fromarray(strip), metallicFactor=0.0, roughnessFactor=1.0, doubleSided=True)
+    return Trimesh(tint.points, tint.triangles, visual=TextureVisuals(uv=places, material=paint), process=False)
 
 
 def _bytes(colour: str) -> tuple[int, int, int]:

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 
 from plisse.errors import PlisseError
 from plisse.extras import optional
-from plisse.recipe import Design, SurfaceDesign
+from plisse.recipe import Recipe
 from plisse.studio.gate import Gate
+from plisse.studio.page import with_additions
 from plisse.studio.tab import Tab
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ class Studio:
     Raises MissingExtra without viser, PlisseError where the server does not start.
     """
 
-    def __init__(self, recipe: Design | SurfaceDesign, title: str, gate: Gate, port: int = 8080):
+    def __init__(self, recipe: Recipe, title: str, gate: Gate, port: int = 8080):
         viser = optional("viser", extra="studio", purpose="designs in a browser")
         self.tabs: dict[int, Tab] = {}
         self._first = recipe, title
@@ -37,7 +38,9 @@ class Studio:
             self._server: ViserServer = viser.ViserServer(gate.host, port, label="plisse studio", verbose=False)
         self._forbid_sharing()
         self._server.gui.configure_theme(control_width="large", show_logo=False, show_share_button=False)
-        self._server.scene.configure_default_lights(True, cast_shadow=False)
+        self._server.scene.world_axes.visible = False
+        self._server.scene.configure_default_lights(False)
+        self._server.scene.configure_environment_map(None)
         self._server.on_client_connect(self._welcome)
         self._server.on_client_disconnect(self._take_leave)
 
@@ -73,6 +76,16 @@ class Studio:
         self._server._websock_server.unregister_handler(messages.ShareUrlRequest)
 
 
+def _amend(response) -> None:
+    """Add the studio's headers to a response, and to the page what viser's lacks."""
+    for name, value in HEADERS.items():
+        response.headers[name] = value
+    if response.headers.get("Content-Type", "").startswith("text/html"):
+        response.body = with_additions(response.body, response.headers.get("Content-Encoding", "identity"))
+        del response.headers["Content-Length"]
+        response.headers["Content-Length"] = str(len(response.body))
+
+
 @contextlib.contextmanager
 def _guarded(gate: Gate) -> Iterator[None]:
     """Within this, servers ask the gate before anything else: viser has no place for it.
@@ -95,8 +108,7 @@ def _guarded(gate: Gate) -> Iterator[None]:
                 return connection.respond(HTTPStatus.FORBIDDEN, refusal + "\n")
             response = process_request(connection, request)
             if response is not None:
-                for name, value in HEADERS.items():
-                    response.headers[name] = value
+                _amend(response)
                 if gate.is_given(request.path):
                     response.headers["Set-Cookie"] = gate.cookie
             return response

@@ -3,12 +3,14 @@
 import re
 import shutil
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import msgspec
 
 from plisse.errors import InvalidDesign, InvalidMesh
-from plisse.recipe import Design, Points, Spline, SurfaceDesign
+from plisse.recipe import Recipe
 
 __all__ = ["LARGEST_MESH", "MESH_FORMATS", "Shelf"]
 
@@ -48,7 +50,7 @@ class Shelf:
             self._paths.pop(next(iter(self._paths)))
         return shown
 
-    def adopt(self, recipe: Design | SurfaceDesign) -> Design | SurfaceDesign:
+    def adopt(self, recipe: Recipe) -> Recipe:
         """A recipe read from the user's own disk, its mesh files on the shelf and named without their place."""
         return _with_files(recipe, self._adopted)
 
@@ -62,9 +64,13 @@ class Shelf:
                                     "first, or start plisse studio with the design file")
         return data
 
-    def placed(self, recipe: Design | SurfaceDesign) -> Design | SurfaceDesign:
+    def placed(self, recipe: Recipe) -> Recipe:
         """The recipe with the places of its mesh files, to be solved."""
         return _with_files(recipe, lambda name: str(self._paths[name]))
+
+    def path(self, name: str) -> str:
+        """The place of a mesh."""
+        return str(self._paths[name])
 
     def close(self) -> None:
         """Remove what was uploaded."""
@@ -79,12 +85,11 @@ class Shelf:
         return path.name
 
 
-def _with_files(recipe: Design | SurfaceDesign, name_of) -> Design | SurfaceDesign:
-    if isinstance(recipe, Design):
-        assert not isinstance(recipe.curve, Spline | Points) or recipe.curve.file is None  # points were taken in
-        return recipe
-    found = {key: name_of(value) for key in ("file", "edited_file") if (value := getattr(recipe.surface, key)) is not None}
-    return msgspec.structs.replace(recipe, surface=msgspec.structs.replace(recipe.surface, **found)) if found else recipe
+def _with_files(recipe: Recipe, name_of: Callable[[str], str]) -> Recipe:
+    """The recipe with other names for the mesh files of its surface; points of curves were taken in when it was read."""
+    surface: Any = getattr(recipe, "surface", None)
+    files = {key: name_of(value) for key in ("file", "edited_file") if (value := getattr(surface, key, None)) is not None}
+    return msgspec.structs.replace(recipe, surface=msgspec.structs.replace(surface, **files)) if files else recipe
 
 
 def _harmless(name: str) -> str:

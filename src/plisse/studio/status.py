@@ -7,7 +7,8 @@ from plisse.studio.requests import Found
 
 __all__ = ["failure_html", "numbers_of", "status_html", "working_html"]
 
-MARKS = {"exact": ("✔", "#1f6b4a"), "approximate": ("≈", "#8a5a00"), "infeasible": ("✖", "#9b2f24"), "draft": ("…", "#4d463f")}
+MARKS = {"exact": ("✔", "#1f6b4a"), "approximate": ("≈", "#8a5a00"), "infeasible": ("✖", "#9b2f24"),
+         "draft": ("…", "#4d463f")}
 STYLE = "font-size:0.86em;line-height:1.35;padding:0.3em 0.7em"
 MOST_SENTENCES = 6
 
@@ -15,26 +16,24 @@ MOST_SENTENCES = 6
 def status_html(found: Found, title: str) -> str:
     """Status, numbers and sentences of a solved design; those of a draft say that they are of a draft."""
     report = found.report
-    status = "draft" if found.drafted else report.status
-    rows = "".join(f"<tr><td style='opacity:0.75;padding-right:1em'>{escape(name)}</td><td>{escape(value)}</td></tr>"
-                   for name, value in numbers_of(report))
     sentences = [*report.reasons, *report.warnings]
     more = [f"and {len(sentences) - MOST_SENTENCES} more; the report has them all"] * (len(sentences) > MOST_SENTENCES)
     listed = "".join(f"<li>{escape(sentence)}</li>" for sentence in sentences[:MOST_SENTENCES] + more)
+    badge = _badge("draft" if found.drafted else report.status)
     note = f"coarse while you pull: {report.vertices:,} vertices" if found.drafted else title
-    return (f"<div role='status' aria-live='polite' style='{STYLE}'>{_badge(status)} <span>{escape(note)}</span>"
-            f"<table style='font-variant-numeric:tabular-nums'>{rows}</table>"
-            f"<ul style='margin:0.3em 0;padding-left:1.2em'>{listed}</ul></div>")
+    return _block("status", f"{badge} <span>{escape(note)}</span>{_table(report)}"
+                            f"<ul style='margin:0.3em 0;padding-left:1.2em'>{listed}</ul>")
 
 
 def failure_html(sentence: str) -> str:
     """A request that came to nothing."""
-    return (f"<div role='alert' style='{STYLE}'>{_badge('infeasible', 'not done')} {escape(sentence)}</div>")
+    return _block("alert", f"{_badge('infeasible', 'not done')} {escape(sentence)}")
 
 
-def working_html(stage: str, fraction: float) -> str:
-    """What is being done."""
-    return f"<div role='status' style='{STYLE}'>{_badge('draft', 'working')} {escape(stage)} ({100 * fraction:.0f} %)</div>"
+def working_html(stage: str, fraction: float, before: Found | None) -> str:
+    """What is being done; the numbers of the design before are pale, for they are not those of this one."""
+    pale = "" if before is None else f"<div style='opacity:0.4'>{_table(before.report)}</div>"
+    return _block("status", f"{_badge('draft', 'working')} {escape(stage)} ({100 * fraction:.0f} %){pale}")
 
 
 def numbers_of(report: Report) -> list[tuple[str, str]]:
@@ -58,6 +57,16 @@ def numbers_of(report: Report) -> list[tuple[str, str]]:
     if "total" in report.seconds:
         rows.append(("solved in", f"{1000 * report.seconds['total']:.0f} ms"))
     return rows
+
+
+def _block(role: str, content: str) -> str:
+    return f"<div role='{role}' aria-live='polite' style='{STYLE}'>{content}</div>"
+
+
+def _table(report: Report) -> str:
+    rows = "".join(f"<tr><td style='opacity:0.75;padding-right:1em'>{escape(name)}</td><td>{escape(value)}</td></tr>"
+                   for name, value in numbers_of(report))
+    return f"<table style='font-variant-numeric:tabular-nums'>{rows}</table>"
 
 
 def _badge(status: str, word: str = "") -> str:

@@ -39,8 +39,8 @@ def limit_uploads(client: ClientHandle) -> None:
             if message.part_count == 0:
                 drop(message.transfer_uuid)
         else:
-            client.add_notification("Upload refused", f"At most {LARGEST_MESH // 1_000_000} MB and {AT_ONCE} files at a time.",
-                                    color="red")
+            words = f"At most {LARGEST_MESH // 1_000_000} MB and {AT_ONCE} files at a time."
+            client.add_notification("Upload refused", words, color="red")
 
     def part(client_id, message) -> None:
         if message.transfer_uuid not in begun:

@@ -15,6 +15,7 @@ from plisse.structure.topology import Topology
 
 __all__ = ["Tint", "View", "flat_view", "folded_view", "tinted"]
 
+SHADES = 128
 LETTERS = {"mountain": "M", "valley": "V", "flat": "F", "boundary": "B"}
 
 
@@ -29,14 +30,14 @@ class View:
 
 @dataclass(frozen=True, eq=False)
 class Tint:
-    """Colours (N, 3) in 0…255 of points (N, 3) of triangles (T, 3), the map's title, and its scale.
+    """Positions (N,) in 0…1 on a scale, nan where unknown, of points (N, 3) of triangles (T, 3), and the map's title.
 
-    `ticks` are positions in 0…1 with their labels, `bar` (K, 3) the colours from one end to the other.
+    `bar` (K, 3) are the colours of the scale from 0 to 1, in 0…255, `ticks` positions with their labels.
     """
 
     points: np.ndarray
     triangles: np.ndarray
-    colours: np.ndarray
+    shares: np.ndarray
     title: str
     ticks: list[tuple[float, str]]
     bar: np.ndarray
@@ -58,14 +59,14 @@ def flat_view(structure: PleatedStructure) -> View:
 
 def tinted(structure: PleatedStructure, colour: ColourMap) -> Tint:
     """The structure coloured by a map, every face on its own."""
-    corners = structure.topology.corners
-    shades = np.linspace(0, 1, 32)
-    scale = colour.scale
+    corners, scale, shares = structure.topology.corners, colour.scale, np.linspace(0, 1, SHADES)
     low, high = np.log10([scale.low, scale.high]) if scale.logarithmic else (scale.low, scale.high)
-    values = low + shades * (high - low)
+    values = low + shares * (high - low)
     bar = colour.colours(10**values if scale.logarithmic else values)
-    return Tint(structure.vertices[corners.vertex].astype(np.float32), corner_triangles(structure.topology).astype(np.uint32),
-                _bytes(colour.colours(colour.values)), colour.title, scale.ticks(), _bytes(bar))
+    triangles = corner_triangles(structure.topology).astype(np.uint32)
+    return Tint(structure.vertices[corners.vertex].astype(np.float32), triangles,
+                scale.shares(colour.values).astype(np.float32), colour.title, scale.ticks(),
+                np.round(255 * np.clip(bar, 0, 1)).astype(np.uint8))
 
 
 def _view(topology: Topology, points: np.ndarray, letters: np.ndarray) -> View:
@@ -86,6 +87,3 @@ def _strips(topology: Topology) -> np.ndarray:
     links = coo_array((np.ones(len(pairs)), pairs.T), shape=(topology.face_count,) * 2)
     return connected_components(links, directed=False)[1].astype(np.int64)
 
-
-def _bytes(colours: np.ndarray) -> np.ndarray:
-    return np.round(255 * np.clip(colours, 0, 1)).astype(np.uint8)

@@ -1,5 +1,6 @@
 """Requests of one client, answered outside of the server's process: the newest wins, a crash ends one request only."""
 
+import contextlib
 import os
 import pickle
 import queue
@@ -160,10 +161,8 @@ class _Process:
         code = self._popen.wait()
         for stream in (self._popen.stdin, self._popen.stdout):
             assert stream is not None
-            try:
+            with contextlib.suppress(OSError):
                 stream.close()
-            except OSError:
-                pass
         return code
 
     def _listen(self) -> None:

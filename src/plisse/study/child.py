@@ -9,6 +9,8 @@ import pickle
 import queue
 import sys
 import threading
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from time import perf_counter
 
 from plisse.errors import PlisseError
@@ -26,9 +28,9 @@ WARMING_UP = {"curve": {"kind": "arc", "radius": 100, "angle": 60},
 def attempted(recipe: dict, memory: int, forecast: bool = False) -> Outcome:
     """The outcome of a recipe in this process, with at most `memory` more bytes; nothing is raised."""
     start = perf_counter()
-    _limit(memory)
     try:
-        outcome = _made(recipe, forecast)
+        with _bounded(memory):
+            outcome = _made(recipe, forecast)
     except PlisseError as error:
         outcome = Outcome(status="invalid", reasons=[str(error)])
     except MemoryError:
@@ -70,16 +72,22 @@ def _foretold(recipe) -> dict:
     return {"hopeful": ahead.is_hopeful, "min_ruling_deg": degrees(ahead.ruling_angles.min())}
 
 
-def _limit(memory: int) -> None:
-    """Bound the address space where the system can; elsewhere the parent watches."""
+@contextmanager
+def _bounded(memory: int) -> Iterator[None]:
+    """At most so many more bytes of address space meanwhile, where the system can; elsewhere the parent watches."""
     if sys.platform != "linux":
+        yield
         return
     import resource
 
     import psutil
 
-    hard = resource.getrlimit(resource.RLIMIT_AS)[1]
-    resource.setrlimit(resource.RLIMIT_AS, (psutil.Process().memory_info().vms + memory, hard))
+    before = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (psutil.Process().memory_info().vms + memory, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, before)
 
 
 def main() -> None:
@@ -90,13 +98,12 @@ def main() -> None:
     threading.Thread(target=_listen, args=(jobs,), daemon=True).start()
     _made(WARMING_UP, False)
     message: object = READY
-    while True:
-        pickle.dump(message, answers)
-        answers.flush()
-        try:
+    with suppress(queue.Empty):
+        while True:
+            pickle.dump(message, answers)
+            answers.flush()
             message = attempted(*jobs.get(timeout=IDLE_SECONDS))
-        except queue.Empty:
-            os._exit(0)
+    os._exit(0)  # at once: the listening thread waits for jobs
 
 
 def _listen(jobs: queue.SimpleQueue) -> None:

@@ -17,6 +17,7 @@ __all__ = ["Crew", "crew"]
 PURPOSE = "studies"
 PATIENCE = 10.0  # seconds within which a worker that ends has not worked at all
 FAILURES = 5
+ANSWER_SECONDS = 20.0
 
 
 class Crew:
@@ -46,15 +47,13 @@ class Crew:
             if self._failures >= FAILURES:
                 raise PlisseError(f"workers do not start on this machine{self._last_words()}; "
                                   "see whether `python -c 'import distributed'` works")
+            _end(process)
             self._processes[k], self._started[k] = self._worker(), monotonic()
 
     def end(self) -> None:
         """End our own workers, and with them the processes in which they make designs."""
         for process in self._processes:
-            process.kill()
-            process.wait()
-            if process.stdin is not None:
-                process.stdin.close()
+            _end(process)
         self._errors.close()
 
     def _worker(self) -> subprocess.Popen:
@@ -66,6 +65,13 @@ class Crew:
         self._errors.seek(0)
         lines = self._errors.read()[-2000:].decode(errors="replace").strip().splitlines()
         return f" ({lines[-1].strip()})" if lines else ""
+
+
+def _end(process: subprocess.Popen) -> None:
+    process.kill()
+    process.wait()
+    assert process.stdin is not None
+    process.stdin.close()
 
 
 @contextmanager
@@ -81,13 +87,17 @@ def crew(scheduler: str | None = None, workers: int | None = None) -> Iterator[C
             yield found
         return
     try:
-        client = distributed.Client(scheduler, timeout=20, set_as_default=False)
+        client = distributed.Client(scheduler, timeout=ANSWER_SECONDS, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
         reason = f"{type(error).__name__}: {error}".splitlines()[0]
         raise PlisseError(f"no Dask scheduler answers at {scheduler} ({reason}); start one with `dask scheduler`, or leave "
                           "--scheduler out to work on this machine") from None
     with client:
-        yield Crew(client)
+        found = Crew(client)
+        try:
+            yield found
+        finally:
+            found.end()
 
 
 @contextmanager
@@ -95,7 +105,7 @@ def _local(distributed, workers: int | None) -> Iterator[Crew]:
     from dask.system import CPU_COUNT
 
     # designs whose worker dies come back to us at once, so that their attempts are counted
-    cluster = distributed.LocalCluster(n_workers=0, threads_per_worker=1, dashboard_address=None, protocol="tcp",
+    cluster = distributed.LocalCluster(n_workers=0, threads_per_worker=1, dashboard_address=":0", protocol="tcp",
                                        silence_logs=logging.CRITICAL, scheduler_kwargs={"allowed_failures": 0})
     with cluster, distributed.Client(cluster, set_as_default=False) as client:
         found = Crew(client, cluster.scheduler_address, workers or CPU_COUNT)

@@ -9,6 +9,7 @@ import sys
 import tempfile
 import threading
 from collections import deque
+from contextlib import suppress
 from time import monotonic
 
 from msgspec.structs import replace
@@ -45,6 +46,7 @@ def _ready() -> "Workshop":
         workshop = _idle.pop()
         if workshop.is_usable:
             return workshop
+        workshop.close()
     return Workshop()
 
 
@@ -64,8 +66,14 @@ class Workshop:
         self._process = subprocess.Popen([sys.executable, "-m", "plisse.study.child"], stdin=subprocess.PIPE,
                                          stdout=subprocess.PIPE, stderr=self._errors, **process_options())
         self._answers: queue.SimpleQueue = queue.SimpleQueue()
-        threading.Thread(target=self._listen, daemon=True).start()
+        self._listener = threading.Thread(target=self._listen, daemon=True)
+        self._listener.start()
         self._waiting_for_start = True
+
+    @property
+    def pid(self) -> int:
+        """The number of the process."""
+        return self._process.pid
 
     @property
     def is_usable(self) -> bool:
@@ -93,6 +101,10 @@ class Workshop:
         """End the process."""
         self._process.kill()
         self._process.wait()
+        self._listener.join()
+        self._errors.close()
+        with suppress(OSError):  # what was written and not read
+            self._process.__exit__(None, None, None)
 
     def _watched(self, limits: Limits) -> tuple[Outcome, int]:
         """The outcome, and the largest memory in bytes that was seen."""
@@ -124,10 +136,10 @@ class Workshop:
             return 0
 
     def _ended(self, status: str, reason: str, seconds: float = 0.0) -> Outcome:
-        ended_itself = not self.is_usable
+        if status == DIED:
+            with suppress(subprocess.TimeoutExpired):
+                reason += f" with code {self._process.wait(timeout=2)}" + self._last_words()
         self.close()
-        if status == DIED and ended_itself:
-            reason += f" with code {self._process.returncode}" + self._last_words()
         return Outcome(status=status, reasons=[reason], seconds=seconds)
 
     def _last_words(self) -> str:

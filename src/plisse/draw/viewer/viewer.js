@@ -145,12 +145,11 @@
     for (let k = 0; k < 3; k++) {
       view[4 * k] = f / aspect * right[k];
       view[4 * k + 1] = f * up[k];
-      view[4 * k + 2] = -towards[k] * -(depth + near) / (depth - near);
+      view[4 * k + 2] = -towards[k] * (depth + near) / (depth - near);
       view[4 * k + 3] = -towards[k];
     }
     view[14] = (depth + near) / (depth - near) * far - 2 * depth * near / (depth - near);
     view[15] = far;
-    for (let k = 0; k < 3; k++) view[4 * k + 2] = -towards[k] * (depth + near) / (depth - near);
     const turn = new Float32Array([0, 1, 2].flatMap((k) => [right[k], up[k], towards[k]]));
     return { view, turn };
   }

@@ -5,6 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
+from plisse.geometry.chart import ChartPoints
 from plisse.layout.asymptotic.directions import Directions, Field
 from plisse.layout.stops import Stop
 
@@ -103,8 +104,10 @@ class _March:
         """One step of all active curves; those that may not take it try smaller ones or end."""
         at = np.flatnonzero(self.active)
         size = np.minimum(self.size[at], self.left[at])
-        after, turned = _runge_kutta(self.directions, self.place[at], self.sense[at], self.field, size)
-        blocked, left_domain = self._blocked(at, after, size)
+        after, ahead = _runge_kutta(self.directions, self.place[at], self.sense[at], self.field, size)
+        points = self.directions.chart.at(after)
+        turned = self.directions.along(points, ahead, self.field)
+        blocked, left_domain = self._blocked(at, after, size, points)
         smaller = left_domain & (size > SMALLEST_STEP * self.limits.step)
         self.size[at[smaller]] *= 0.5
         for k in np.flatnonzero(blocked & ~smaller):
@@ -117,10 +120,11 @@ class _March:
         self.left[goes] -= size[taken]
         self._finish(goes)
 
-    def _blocked(self, at: np.ndarray, after: np.ndarray, size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        chart, limits = self.directions.chart, self.limits
-        one, mixed, two = chart.at(after).second
-        left_domain = ~(chart.inside(after) & np.isfinite(one))
+    def _blocked(self, at: np.ndarray, after: np.ndarray, size: np.ndarray,
+                 points: ChartPoints) -> tuple[np.ndarray, np.ndarray]:
+        """Masks (N,) of the curves that may not take their step, and of those that would leave the domain."""
+        limits, (one, mixed, two) = self.limits, points.second
+        left_domain = ~(self.directions.chart.inside(after) & np.isfinite(one))
         self.lost[at] = np.where(mixed**2 > one * two, 0.0, self.lost[at] + size)
         near = np.zeros(len(at), bool)
         for hub in limits.hubs:
@@ -161,8 +165,7 @@ def _runge_kutta(directions: Directions, place: np.ndarray, sense: np.ndarray, f
     two = directions.at(place + 0.5 * step * one, one, field)
     three = directions.at(place + 0.5 * step * two, two, field)
     four = directions.at(place + step * three, three, field)
-    after = place + step / 6 * (one + 2 * two + 2 * three + four)
-    return after, directions.at(after, four, field)
+    return place + step / 6 * (one + 2 * two + 2 * three + four), four
 
 
 def _cubic(places: np.ndarray, tangents: np.ndarray, size: np.ndarray) -> np.ndarray:

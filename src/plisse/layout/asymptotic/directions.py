@@ -25,7 +25,10 @@ class Directions:
 
     def at(self, places: np.ndarray, ahead: np.ndarray, field: Field = "creases") -> np.ndarray:
         """Unit directions (N,) in the plane, those of the two senses that agree with `ahead` (N,)."""
-        points = self.chart.at(places)
+        return self.along(self.chart.at(places), ahead, field)
+
+    def along(self, points: ChartPoints, ahead: np.ndarray, field: Field = "creases") -> np.ndarray:
+        """The same where the surface is known already."""
         direction = asymptotic(points.second, self.family)
         if field == "columns":
             direction = _orthogonal(points, direction)

@@ -35,14 +35,14 @@ def refuse_crowded_hubs(layout: AsymptoticLayout) -> None:
         return
     least = SMALLEST_HUB * layout.width
     if layout.hub < least:
-        raise Infeasible(f"the first columns are {layout.hub:.3g} from the singularity, too near for creases {layout.width:.3g} "
-                         f"apart: faces around it would be slivers; give pattern.hub_size of at least {least:.3g}, or a smaller "
-                         "pattern.width")
+        raise Infeasible(f"the first columns are {layout.hub:.3g} from the singularity, too near for creases "
+                         f"{layout.width:.3g} apart: faces around it would be slivers; give pattern.hub_size of at least "
+                         f"{least:.3g}, or a smaller pattern.width")
     found = len(layout.net.topology.hubs)
     if found < len(layout.hubs):
-        raise Infeasible(f"the surface has {len(layout.hubs)} singularities, but only {found} of them got a polygon of their "
-                         "own between creases and columns; give a smaller pattern.width, more columns, or a smaller part of "
-                         "the surface")
+        raise Infeasible(f"the surface has {len(layout.hubs)} singularities, but only {found} of them got a polygon of "
+                         "their own between creases and columns; give a smaller pattern.width, more columns, or a smaller "
+                         "part of the surface")
 
 
 def refuse_twist(layout: AsymptoticLayout, amplitude: float) -> None:
@@ -51,9 +51,9 @@ def refuse_twist(layout: AsymptoticLayout, amplitude: float) -> None:
     limit = RULING_ANGLE * slope / np.hypot(1, slope)
     twist = float(np.median(layout.bends.twist))
     if twist > MOST_TWIST * limit:
-        raise Infeasible(f"the surface twists too much along its creases for such pleats: torsion over curvature is {twist:.2g} in "
-                         f"the middle of all values, and from {limit:.2g} on rulings are within 15° of the creases; give a "
-                         "flatter surface, a part nearer to its singularities, or the other surface.family")
+        raise Infeasible("the surface twists too much along its creases for such pleats: torsion over curvature is "
+                         f"{twist:.2g} in the middle of all values, and from {limit:.2g} on rulings are within 15° of the "
+                         "creases; give a flatter surface, a larger pattern.amplitude, or the other surface.family")
 
 
 def _refuse(places: np.ndarray, chart: Chart, most: float, what: str) -> None:

@@ -1,17 +1,19 @@
 """Where patterns end along the legs of singularities: creases hardly bend there, and rulings turn tangent (§2.6)."""
 
 import numpy as np
+import shapely
 
 from plisse.layout.asymptotic.bends import Bends
 from plisse.layout.asymptotic.overlay import Net
-from plisse.layout.asymptotic.rays import Ray, crossings
+from plisse.layout.asymptotic.rays import Ray, as_line, crossings
 
 __all__ = ["kept_columns"]
 
 MOST_TWIST = 8.0  # τ/κ beside a leg
 
 
-def kept_columns(net: Net, points: np.ndarray, bends: Bends, legs: tuple[Ray, ...], bisectors: tuple[Ray, ...]) -> np.ndarray:
+def kept_columns(net: Net, points: np.ndarray, bends: Bends, legs: tuple[Ray, ...],
+                 bisectors: tuple[Ray, ...]) -> np.ndarray:
     """Mask (M,) of the columns of a net that are not cut off along every leg they cross.
 
     A leg is cut at the first column where the creases on its two sides twist too much or turn to the same side, never
@@ -19,7 +21,8 @@ def kept_columns(net: Net, points: np.ndarray, bends: Bends, legs: tuple[Ray, ..
     """
     columns = list(net.columns)
     crossed, cut = np.zeros(len(columns), int), np.zeros(len(columns), int)
-    pairs = _successive(net)
+    edges = net.topology.edges
+    pairs = edges.vertices[~edges.is_crease]
     twisted = bends.twist[pairs].max(axis=1) > MOST_TWIST
     bad = twisted | (bends.facing(points, *pairs.T) > 0)
     for leg in legs:
@@ -34,18 +37,8 @@ def kept_columns(net: Net, points: np.ndarray, bends: Bends, legs: tuple[Ray, ..
     return ~((crossed > 0) & (cut == crossed))
 
 
-def _successive(net: Net) -> np.ndarray:
-    """Ruling edges (R, 2)."""
-    edges = net.topology.edges
-    return edges.vertices[~edges.is_crease]
-
-
 def _pairs_on_leg(net: Net, pairs: np.ndarray, leg: Ray) -> np.ndarray:
     """Numbers of the rulings that cross a leg."""
-    import shapely
-
-    from plisse.layout.asymptotic.rays import as_line
-
     ends = np.stack([net.places[pairs].real, net.places[pairs].imag], axis=-1)
     line = as_line(leg.leaf)
     shapely.prepare(line)

@@ -1,6 +1,7 @@
 """Faces from two families of curves laid over each other: quads, and a polygon around every singularity (§2.6)."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -42,17 +43,18 @@ def overlay(creases: list[Leaf], columns: list[Leaf], hubs: tuple[complex, ...])
     crease, column, places, on_crease, on_column = _crossings(creases, columns)
     start, end, is_crease = _segments(crease, column, on_crease, on_column)
     kept = _without_loose_ends(start, end, len(places))
-    cells = _cells(places, start[kept], end[kept], is_crease[kept])
-    quads, polygons = _alternating(places, *cells, hubs)
+    corners = _corners(places, start[kept], end[kept], is_crease[kept])
+    quads, polygons = _alternating(places, corners, hubs)
     if not len(quads):
         raise Infeasible("creases and columns do not cross in a single quad; give a smaller width, or more columns")
     quads, polygons = _largest_part(quads, polygons, len(places))
     used = np.unique(np.concatenate([quads.ravel(), *polygons]))
+    used = used[np.lexsort((on_crease[used], crease[used]))]
     number = np.full(len(places), -1)
     number[used] = np.arange(len(used))
     topology = Topology(len(used), number[quads], tuple(number[polygon] for polygon in polygons))
-    return Net(tuple(creases), tuple(columns), hubs, places[used], crease[used], column[used], on_crease[used], on_column[used],
-               topology)
+    return Net(tuple(creases), tuple(columns), hubs, places[used], crease[used], column[used], on_crease[used],
+               on_column[used], topology)
 
 
 def _crossings(creases: list[Leaf], columns: list[Leaf]):
@@ -98,8 +100,17 @@ def _without_loose_ends(start: np.ndarray, end: np.ndarray, count: int) -> np.nd
         kept &= ~loose
 
 
-def _cells(places: np.ndarray, start: np.ndarray, end: np.ndarray, is_crease: np.ndarray):
-    """Vertex, kind of the edge that starts there, and cell number of every corner, in the order around the cells."""
+class _Corners(NamedTuple):
+    """Corners of all cells: vertex, kind of the edge that starts there, the next corner, and the number of the cell."""
+
+    vertex: np.ndarray
+    is_crease: np.ndarray
+    following: np.ndarray
+    cell: np.ndarray
+
+
+def _corners(places: np.ndarray, start: np.ndarray, end: np.ndarray, is_crease: np.ndarray) -> _Corners:
+    """Corners of the cells between straight edges that are given in both directions."""
     angle = np.angle(places[end] - places[start])
     around = np.lexsort((angle, start))
     first = np.flatnonzero(np.r_[True, np.diff(start[around]) > 0])
@@ -111,7 +122,7 @@ def _cells(places: np.ndarray, start: np.ndarray, end: np.ndarray, is_crease: np
     following = clockwise[twin]
     cell = connected_components(coo_array((np.ones(len(following)), (np.arange(len(following)), following)),
                                           shape=(len(following),) * 2), directed=False)[1]
-    return start, is_crease, following, cell
+    return _Corners(start, is_crease, following, cell)
 
 
 def _twins(start: np.ndarray, end: np.ndarray) -> np.ndarray:
@@ -121,9 +132,10 @@ def _twins(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     return twin
 
 
-def _alternating(places: np.ndarray, vertex: np.ndarray, is_crease: np.ndarray, following: np.ndarray, cell: np.ndarray,
+def _alternating(places: np.ndarray, corners: _Corners,
                  hubs: tuple[complex, ...]) -> tuple[np.ndarray, list[np.ndarray]]:
     """Quads (F, 4) that begin with a crease, and polygons around hubs."""
+    vertex, is_crease, following, cell = corners
     count = np.bincount(cell)
     turned = np.bincount(cell, (np.conj(places[vertex]) * places[vertex[following]]).imag)
     odd = np.bincount(cell, is_crease == is_crease[following])

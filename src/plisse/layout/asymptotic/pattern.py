@@ -21,10 +21,9 @@ from plisse.structure.topology import Topology
 __all__ = ["AsymptoticLayout", "Sizes", "lay_out"]
 
 STEP = 1 / 50  # of the domain's diagonal
-PATCH = 0.5  # widths through which curves pass without asymptotic directions
-CIRCLE = 0.05  # of the distance of the first column, around a singularity
+PATCH = 2.0  # widths through which curves pass without asymptotic directions
+CIRCLE = 1e-3  # of the diagonal, around a singularity
 FIRST_CREASE = 1.5  # widths from a singularity
-INNER = 0.55  # where a column is added in front of the first of a leg
 
 
 @dataclass(frozen=True)
@@ -101,20 +100,26 @@ class AsymptoticLayout:
         return self._with_columns([leaf for leaf, stays in zip(self.net.columns, kept, strict=True) if stays])
 
     def refined(self) -> "AsymptoticLayout":
-        """With a column between any two along the legs, and one more in front of the first."""
-        columns, new = list(self.net.columns), list[Leaf]()
-        lines = [leg.leaf for leg in self.legs] if self.legs else [self._spine]
-        for number, line in enumerate(lines):
-            taken, added = np.sort(_finite(crossings(line, columns))), _finite(crossings(line, new))
-            marks = _finite(crossings(line, [ray.leaf for ray in self.bisectors
-                                             if not self.legs or ray.hub != self.legs[number].hub]))
-            ends = np.concatenate([[0.0], taken]) if self.legs else taken
-            arcs = []
-            for start, end in zip(ends[:-1], ends[1:], strict=True):
-                if not any(((other > start) & (other < end)).any() for other in (marks, added)):
-                    arcs.append(INNER * end if start == 0 and self.legs else 0.5 * (start + end))
-            new += trace_both_ways(self.directions, line.place_at(np.array(arcs)), "columns", self.limits)
-        return self._with_columns(columns + new)
+        """With a column between any two along the legs, and one more in front of the first where there is room."""
+        columns = list(self.net.columns)
+        gaps: dict[tuple[int, int], complex] = {}
+        for number, line in enumerate([leg.leaf for leg in self.legs] or [self._spine]):
+            reached = crossings(line, columns)
+            order = np.argsort(reached)[:np.isfinite(reached).sum()]
+            hub = self.legs[number].hub if self.legs else -1
+            marks = crossings(line, [ray.leaf for ray in self.bisectors if ray.hub != hub])
+            if self.legs and len(order) > 1 and not (marks < reached[order[0]]).any():
+                # near a singularity curves are as far apart as powers K/2 of their distances from it
+                power = 0.5 * self.hubs[hub].sectors
+                first, second = reached[order[:2]] ** power
+                if first > 0.5 * (second - first):
+                    gaps[-1 - number, int(order[0])] = complex(line.place_at((0.5 * first) ** (1 / power)))
+            for one, other in zip(order[:-1].tolist(), order[1:].tolist(), strict=True):
+                if not ((marks > reached[one]) & (marks < reached[other])).any():
+                    middle = 0.5 * (reached[one] + reached[other])
+                    gaps.setdefault((min(one, other), max(one, other)), complex(line.place_at(middle)))
+        return self._with_columns(columns + list(trace_both_ways(self.directions, np.array(list(gaps.values())), "columns",
+                                                                 self.limits)))
 
     @cached_property
     def _spine(self) -> Leaf:
@@ -139,20 +144,21 @@ def lay_out(chart: Chart, family: int, sizes: Sizes) -> AsymptoticLayout:
 
 def _around_hubs(directions: Directions, hubs: tuple[Singularity, ...], sizes: Sizes, limits: Limits) -> AsymptoticLayout:
     low, high = directions.chart.domain
-    radius = 1e-3 * abs(high - low)
+    radius = CIRCLE * abs(high - low)
     legs = rays(directions, hubs, "creases", limits, radius)
     bisectors = rays(directions, hubs, "columns", limits, radius)
     room = min(ray.leaf.length for ray in bisectors)
     width = room / (sizes.creases + FIRST_CREASE - 0.5) if sizes.width is None else sizes.width
     if FIRST_CREASE * width > room:
-        raise Infeasible(f"the first creases, {FIRST_CREASE * width:.3g} from the singularity, leave the surface, which reaches "
-                         f"{room:.3g} from there; give a smaller pattern.width or a larger surface")
+        raise Infeasible(f"the first creases, {FIRST_CREASE * width:.3g} from the singularity, leave the surface, which "
+                         f"reaches {room:.3g} from there; give a smaller pattern.width or a larger surface")
+    limits = replace(limits, patch=PATCH * width)
     span = (sizes.creases + FIRST_CREASE - 1) * width
     reach = min(max(ray.leaf.length for ray in legs), 1.2 * span) if sizes.reach is None else sizes.reach
     hub = max(0.12 * reach, 0.5 * width) if sizes.hub is None else sizes.hub
     gap = (reach - hub) / max(sizes.columns - 1, 1)
-    creases = spaced(directions, "creases", bisectors, legs, Spacing(FIRST_CREASE * width, width, span + 1e-9 * span), limits)
-    columns = spaced(directions, "columns", legs, bisectors, Spacing(hub, gap, reach + 1e-9 * reach), limits)
+    creases = spaced(directions, "creases", bisectors, legs, Spacing(FIRST_CREASE * width, width, span), limits)
+    columns = spaced(directions, "columns", legs, bisectors, Spacing(hub, gap, reach), limits)
     net = overlay(creases, columns, tuple(single.place for single in hubs))
     return AsymptoticLayout(directions, hubs, legs, bisectors, limits, width, hub, net)
 
@@ -167,7 +173,3 @@ def _regular(directions: Directions, sizes: Sizes, limits: Limits) -> Asymptotic
     creases = evenly(directions, "creases", across, sizes.creases, width, limits)
     columns = evenly(directions, "columns", spine, sizes.columns, reach / (sizes.columns + 1), limits)
     return AsymptoticLayout(directions, (), (), (), limits, width, 0.0, overlay(creases, columns, ()))
-
-
-def _finite(values: np.ndarray) -> np.ndarray:
-    return values[np.isfinite(values)]

@@ -20,8 +20,9 @@ class Ray:
     leaf: Leaf
 
 
-def rays(directions: Directions, hubs: tuple[Singularity, ...], field: Field, limits: Limits, radius: float) -> tuple[Ray, ...]:
-    """Legs (`field` creases) or bisectors (columns) of all singularities, traced from a small circle outwards."""
+def rays(directions: Directions, hubs: tuple[Singularity, ...], field: Field, limits: Limits,
+         radius: float) -> tuple[Ray, ...]:
+    """Legs (`field` creases) or bisectors (columns) of all singularities, traced outwards from a circle (in the plane)."""
     out = []
     for number, hub in enumerate(hubs):
         outward = radial_directions(directions, hub, radius, field)

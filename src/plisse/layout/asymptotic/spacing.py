@@ -4,6 +4,7 @@ No crease lies on a leg: there labels repeat, and in the middle a polygon is lef
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -66,7 +67,7 @@ def _others(taken: np.ndarray, marks: np.ndarray, spacing: Spacing, reach: float
     if not len(taken):
         return []
     out: list[float] = []
-    for start, end in zip(taken[:-1], taken[1:], strict=True):
+    for start, end in pairwise(taken):
         if not ((marks > start) & (marks < end)).any():
             parts = round((end - start) / spacing.gap)
             out += [start + (end - start) * k / parts for k in range(1, parts)]

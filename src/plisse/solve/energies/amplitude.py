@@ -38,6 +38,6 @@ def kept_amplitude(topology: Topology, rest: np.ndarray, normals: np.ndarray, re
         centre = np.flatnonzero(count == number)
         around = other[first[centre][:, None] + np.arange(number)]
         drop = rest[:, centre] - rest[:, around].mean(axis=2)
-        terms.append(Term(f"amplitude {number}", height_over, tuple(Rows("vertices", column) for column in [centre, *around.T]),
-                          weight, {"rest": drop, "normal": normals[:, centre]}))
+        rows = tuple(Rows("vertices", column) for column in [centre, *around.T])
+        terms.append(Term(f"amplitude {number}", height_over, rows, weight, {"rest": drop, "normal": normals[:, centre]}))
     return terms

@@ -1,0 +1,89 @@
+"""Controls for the numbers of a design, made from its recipe, and the design as text."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from plisse.studio.fields import Field, fields_of, value_of_text
+
+if TYPE_CHECKING:
+    from plisse.studio.tab import Tab
+
+__all__ = ["DesignPanel"]
+
+TITLES = {"pattern": "Pleats", "curve": "Curve", "march": "March", "closed_form": "Closed form", "surface": "Pleats over it",
+          "strips": "Strips", "parallel": "Parallel", "solve": "Exactness"}
+
+
+class DesignPanel:
+    """One control per field, rebuilt where another kind of design lies on the desk."""
+
+    def __init__(self, tab: Tab):
+        self._tab, self._gui = tab, tab.client.gui
+        self._place = self._gui.add_folder("Numbers")
+        self._folders: list = []
+        self._controls: dict[tuple[str, str], object] = {}
+        self._shape: list = []
+
+    def refresh(self) -> None:
+        """Bring the controls to the design on the desk."""
+        fields = fields_of(self._tab.desk.recipe)
+        shape = [(field.key, field.kind, field.label) for field in fields]
+        if shape != self._shape:
+            self._shape = shape
+            self._build(fields)
+            return
+        for field in fields:
+            control = self._controls[field.key, field.kind]
+            if field.kind in ("slider", "whole"):
+                control.min, control.max = min(control.min, field.value), max(control.max, field.value)  # type: ignore
+            if control.value != field.value:  # type: ignore[attr-defined]
+                control.value = field.value  # type: ignore[attr-defined]
+
+    def _build(self, fields: list[Field]) -> None:
+        for folder in self._folders:
+            folder.remove()
+        self._folders, self._controls = [], {}
+        sections = list(dict.fromkeys(field.section for field in fields))
+        with self._place:
+            for section in sections:
+                folder = self._gui.add_folder(TITLES[section], expand_by_default=section != "solve")
+                self._folders.append(folder)
+                with folder:
+                    for field in fields:
+                        if field.section == section:
+                            self._add(field)
+
+    def _add(self, field: Field) -> None:
+        make = {"slider": self._slider, "whole": self._slider, "number": self._number, "switch": self._switch,
+                "choice": self._choice, "list": self._list}[field.kind]
+        control = make(field)
+        self._controls[field.key, field.kind] = control
+        control.on_update(self._changed(field))
+
+    def _slider(self, field: Field):
+        whole = int if field.kind == "whole" else float
+        return self._gui.add_slider(field.label, whole(field.low), whole(field.high), whole(field.step),  # type: ignore
+                                    field.value)
+
+    def _number(self, field: Field):
+        return self._gui.add_number(field.label, field.value, min=int(field.low), max=int(field.high), step=1)  # type: ignore
+
+    def _switch(self, field: Field):
+        return self._gui.add_checkbox(field.label, bool(field.value))
+
+    def _choice(self, field: Field):
+        return self._gui.add_dropdown(field.label, field.choices, initial_value=str(field.value))
+
+    def _list(self, field: Field):
+        return self._gui.add_text(field.label, str(field.value), hint="a number, or a list: one value per crease or strip")
+
+    def _changed(self, field: Field):
+        async def changed(event) -> None:
+            if event.client is None:
+                return
+            value = event.target.value
+            self._tab.act(lambda: self._tab.desk.change(
+                {field.key: value_of_text(value) if field.kind == "list" else value}))
+
+        return changed

@@ -1,0 +1,112 @@
+"""How the structure is shown: lines, colours, plates, the camera."""
+
+from __future__ import annotations
+
+import asyncio
+from html import escape
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from plisse.draw.colour_maps import NAMES
+from plisse.studio.view import Tint
+
+if TYPE_CHECKING:
+    from plisse.studio.tab import Tab
+
+__all__ = ["LookPanel", "scale_html"]
+
+PAPER = "paper"
+SWITCHES = (("rulings", "rulings"), ("creases", "creases"), ("sheet", "flat sheet beside"), ("seed", "seed curve"),
+            ("reference", "reference surface"))
+TURN, FRAMES = 2 * np.pi / 12, 25  # radians and pictures per second
+
+
+def scale_html(tint: Tint) -> str:
+    """A colour bar with its ticks."""
+    stops = ",".join(f"rgb({red},{green},{blue})" for red, green, blue in tint.bar.tolist())
+    style = "position:absolute;transform:translateX(-50%);left:"
+    marks = "".join(f"<span style='{style}{100 * place:.1f}%'>{escape(label)}</span>" for place, label in tint.ticks)
+    return (f"<div style='font-size:0.8em;padding:0 1.5em'>{escape(tint.title)}"
+            f"<div style='height:0.8em;background:linear-gradient(to right,{stops});border:1px solid #7b7268'></div>"
+            f"<div style='position:relative;height:1.4em'>{marks}</div></div>")
+
+
+class LookPanel:
+    """Switches that change the picture and nothing else."""
+
+    def __init__(self, tab: Tab):
+        self._tab, gui = tab, tab.client.gui
+        self._turning: asyncio.Task | None = None
+        self._kept: tuple | None = None
+        with gui.add_folder("Show"):
+            for name, words in SWITCHES:
+                gui.add_checkbox(words, getattr(tab.scene.shown, name)).on_update(self._switched(name))
+            self._colours = gui.add_dropdown("colours", (PAPER, *NAMES))
+            self._scale = gui.add_html("", visible=False)
+        with gui.add_folder("Thick"):
+            self._kind = gui.add_dropdown("as", ("sheet", "plates", "offset"))
+            self._length = gui.add_number("thickness or distance", 1.0, step=0.1)
+            self._words = gui.add_markdown("", visible=False)
+        with gui.add_folder("Camera"):
+            gui.add_button("Best view").on_click(self._frame)
+            self._views = gui.add_button_group("view", ("keep", "go back"))
+            self._turntable = gui.add_checkbox("turntable", False)
+        self._colours.on_update(self._painted)
+        self._kind.on_update(self._solidified)
+        self._length.on_update(self._solidified)
+        self._views.on_click(self._viewed)
+        self._turntable.on_update(self._turned)
+
+    def show_scale(self, tint: Tint | None) -> None:
+        """Show what colours mean, or nothing."""
+        self._scale.visible = tint is not None
+        if tint is not None:
+            self._scale.content = scale_html(tint)
+
+    def show_offsets(self, offsets: tuple[float, float]) -> None:
+        """Say how far offsets reach."""
+        self._words.visible = True
+        self._words.content = f"Offsets exist from {offsets[0]:.4g} to {offsets[1]:.4g} {self._tab.desk.recipe.units}."
+
+    def _switched(self, name: str):
+        async def switched(event) -> None:
+            setattr(self._tab.scene.shown, name, event.target.value)
+            self._tab.scene.redraw()
+
+        return switched
+
+    async def _painted(self, event) -> None:
+        if event.client is not None:
+            self._tab.paint("" if self._colours.value == PAPER else self._colours.value)
+
+    async def _solidified(self, event) -> None:
+        if event.client is not None:
+            self._tab.solidify("" if self._kind.value == "sheet" else self._kind.value, float(self._length.value))
+
+    async def _frame(self, _event) -> None:
+        self._tab.scene.frame()
+
+    async def _viewed(self, event) -> None:
+        camera = self._tab.client.camera
+        if event.target.value == "keep":
+            self._kept = camera.position.copy(), camera.look_at.copy(), camera.up_direction.copy()
+        elif self._kept is not None:
+            camera.position, camera.look_at, camera.up_direction = self._kept
+
+    async def _turned(self, event) -> None:
+        if self._turning is not None:
+            self._turning.cancel()
+            self._turning = None
+        if event.target.value:
+            self._turning = asyncio.ensure_future(self._turn())
+
+    async def _turn(self) -> None:
+        """Turn the camera around what it looks at, until it is switched off or the tab is closed."""
+        from scipy.spatial.transform import Rotation
+
+        camera = self._tab.client.camera
+        while self._tab.is_open:
+            turn = Rotation.from_rotvec(camera.up_direction * TURN / FRAMES)
+            camera.position = camera.look_at + turn.apply(camera.position - camera.look_at)
+            await asyncio.sleep(1 / FRAMES)

@@ -1,0 +1,50 @@
+"""What the studio adds to viser's page: names of controls for assistive technology, keys, the colour of the table."""
+
+import gzip
+
+from plisse.draw.colours import BACKGROUND
+
+__all__ = ["with_additions"]
+
+STYLE = f"<style>div:has(> div > [data-dock-root]) {{ background-color: {BACKGROUND} !important; }}</style>"
+
+# viser puts words beside its controls without saying so to the browser: sliders and their numbers have no name
+SCRIPT = """<script>
+(() => {
+  const name = () => {
+    waiting = false;
+    document.querySelectorAll("label[for]").forEach((label) => {
+      const row = label.closest(".mantine-Flex-root");
+      const words = label.textContent;
+      if (!row || row.dataset.named === words) return;
+      row.dataset.named = words;
+      row.querySelectorAll("input:not([type=hidden]), textarea, [role=slider]").forEach((control, k) => {
+        if (control.id !== label.htmlFor) control.setAttribute("aria-label", k ? `${words}, ${k + 1}` : words);
+      });
+    });
+    document.querySelectorAll("canvas").forEach((canvas) => {
+      canvas.setAttribute("role", "img");
+      canvas.setAttribute("aria-label", "the folded structure and its flat sheet");
+    });
+  };
+  // keys that set a control shall not turn the camera as well
+  document.documentElement.addEventListener("keydown", (event) => {
+    const used = event.target.closest("[role=slider], [role=tab], [role=option], input, textarea");
+    if (used && !event.ctrlKey && !event.metaKey && !event.altKey) event.stopPropagation();
+  });
+  let waiting = false;
+  new MutationObserver(() => {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(name);
+  }).observe(document, { childList: true, subtree: true, characterData: true });
+})();
+</script>"""
+
+
+def with_additions(body: bytes, encoding: str) -> bytes:
+    """The bytes of a page, packed as `encoding` says (gzip or identity), with the studio's additions in its head."""
+    page = gzip.decompress(body) if encoding == "gzip" else body
+    head, end, rest = page.partition(b"</head>")
+    page = head + (STYLE + SCRIPT).encode() + end + rest if end else page
+    return gzip.compress(page) if encoding == "gzip" else page

@@ -1,0 +1,102 @@
+"""The controls of one tab: status on top, then design, look, surface and what can be taken away."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from plisse.studio.design_panel import DesignPanel
+from plisse.studio.gallery_panel import GalleryPanel
+from plisse.studio.look_panel import LookPanel
+from plisse.studio.motion_panel import MotionPanel
+from plisse.studio.points_panel import PointsPanel
+from plisse.studio.surface_panel import SurfacePanel
+from plisse.studio.take_panel import TakePanel
+from plisse.studio.view import Tint
+
+if TYPE_CHECKING:
+    from plisse.studio.tab import Tab
+    from plisse.transform.collisions import FreeRange
+
+__all__ = ["Panels"]
+
+STATUS_HEIGHT = 270
+
+
+class Panels:
+    """All controls; nothing here computes, everything asks the tab."""
+
+    def __init__(self, tab: Tab):
+        self._tab, gui = tab, tab.client.gui
+        gui.main_panel.dock_right()
+        status = gui.add_panel()
+        with status.add_tab("Status"):
+            self._status = gui.add_html("")
+        status.dock_above(gui.main_panel)
+        status.set_height(STATUS_HEIGHT)
+        self._undo = gui.add_button_group("history", ("undo", "redo"))
+        self._undo.on_click(self._step)
+        gui.add_command("Undo", hotkey="Z", modifier="cmd/ctrl").on_trigger(self._back)
+        gui.add_command("Redo", hotkey="Z", modifier="cmd/ctrl+shift").on_trigger(self._forth)
+        tabs = gui.add_tab_group()
+        with tabs.add_tab("Design"):
+            self._gallery = GalleryPanel(tab)
+            self._design = DesignPanel(tab)
+            self._points = PointsPanel(tab)
+        with tabs.add_tab("Look"):
+            self._motion = MotionPanel(tab)
+            self._look = LookPanel(tab)
+        with tabs.add_tab("Surface"):
+            self._surface = SurfacePanel(tab)
+        with tabs.add_tab("Take away"):
+            self._take = TakePanel(tab)
+        self.refresh()
+
+    @property
+    def handles_wanted(self) -> bool:
+        """Whether control points are to be seen."""
+        return self._points.wanted
+
+    def rounded(self, position: np.ndarray) -> np.ndarray:
+        """A position with as many digits as a hand can tell apart, snapped to the chosen plane."""
+        return self._points.rounded(position)
+
+    def point_chosen(self, index: int) -> None:
+        """The handle of another point was clicked."""
+        self._points.choose(index)
+
+    def say(self, html: str) -> None:
+        """Show a status."""
+        self._status.content = html
+
+    def note(self, words: str) -> None:
+        """Show a passing message."""
+        self._tab.client.add_notification("plisse studio", words, auto_close_seconds=4.0)
+
+    def refresh(self) -> None:
+        """Bring all controls to what is on the desk."""
+        for panel in (self._design, self._points, self._motion, self._surface, self._take):
+            panel.refresh()
+
+    def show_scale(self, tint: Tint | None) -> None:
+        """Show what colours mean."""
+        self._look.show_scale(tint)
+
+    def show_reach(self, free: FreeRange, offsets: tuple[float, float]) -> None:
+        """Show how far the structure moves and can be offset."""
+        self._motion.show_reach(free)
+        self._look.show_offsets(offsets)
+
+    def show_candidates(self, picture: bytes, choices: list[tuple[str, dict]]) -> None:
+        """Show layouts to choose from."""
+        self._surface.show_candidates(picture, choices)
+
+    async def _step(self, event) -> None:
+        await (self._back if event.target.value == "undo" else self._forth)(event)
+
+    async def _back(self, _event) -> None:
+        self._tab.act(self._tab.desk.undo)
+
+    async def _forth(self, _event) -> None:
+        self._tab.act(self._tab.desk.redo)

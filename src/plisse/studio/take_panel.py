@@ -1,0 +1,45 @@
+"""What can be taken away: the design as text, and every file made of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from plisse.studio.downloads import KINDS, file_name
+
+if TYPE_CHECKING:
+    from plisse.studio.tab import Tab
+
+__all__ = ["TakePanel"]
+
+
+class TakePanel:
+    """The text is always that of the design on screen."""
+
+    def __init__(self, tab: Tab):
+        self._tab, gui = tab, tab.client.gui
+        with gui.add_folder("Files"):
+            self._kind = gui.add_dropdown("format", tuple(KINDS))
+            gui.add_button("Download", icon="download").on_click(self._taken)
+        with gui.add_folder("Design as text"):
+            self._text = gui.add_text("design (TOML)", "", multiline=True)
+            gui.add_button("Read the text above").on_click(self._read)
+            gui.add_button("Download the text", icon="download").on_click(self._saved)
+            gui.add_upload_button("Open a design file …", icon="upload", mime_type=".toml").on_upload(self._uploaded)
+
+    def refresh(self) -> None:
+        """Bring the text to the design on the desk."""
+        self._text.value = self._tab.desk.toml
+
+    async def _taken(self, _event) -> None:
+        self._tab.take(self._kind.value)
+
+    async def _read(self, _event) -> None:
+        self._tab.read(self._text.value)
+
+    async def _saved(self, _event) -> None:
+        name = file_name(self._tab.desk.step.title, "FOLD").replace(".fold", ".toml")
+        self._tab.client.send_file_download(name, self._tab.desk.toml.encode(), save_immediately=True)
+
+    async def _uploaded(self, event) -> None:
+        file = event.target.value
+        self._tab.read(file.content[:2_000_000].decode("utf-8-sig", errors="replace"), file.name.removesuffix(".toml")[:60])
