@@ -1,12 +1,14 @@
 """The code in README and docs runs, and says what it claims."""
 
 import re
+import shlex
 import tomllib
 from pathlib import Path
 
 import pytest
 
 import plisse
+from plisse.cli import main
 
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -46,6 +48,29 @@ def test_files_named_in_the_docs_exist(page):
     rooms = "geometry|structure|measure|layout|solve|leastsquares|transform|io|draw|cli"
     for name in re.findall(rf"`((?:{rooms})/[\w/]+\.py)", text):
         assert (ROOT / "src" / "plisse" / name).exists(), name
+
+
+def test_commands_of_the_tutorial_do_what_it_says(tmp_path, monkeypatch):
+    """Every plisse command exits with 0 and writes the file that it names; light is not cast, which is slow."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("plisse.draw.light.can_cast", lambda: False)
+    monkeypatch.setattr("plisse.io.page.STILL", (150, 100))
+    tutorial = ROOT / "docs" / "tutorial.md"
+    (design,) = blocks(tutorial, "toml")
+    (tmp_path / "shell.toml").write_text(design, encoding="utf-8")
+    commands = [line for block in blocks(tutorial, "sh") for line in block.splitlines()]
+    assert len(commands) >= 8
+    for command in commands:
+        name, *tokens = shlex.split(command)
+        assert name == "plisse" and main(tokens) == 0, command
+        for flag, target in zip(tokens[:-1], tokens[1:], strict=True):
+            assert flag != "-o" or (tmp_path / target).exists(), command
+
+
+def test_every_page_has_its_place_in_the_site():
+    nav = ROOT.joinpath("mkdocs.yml").read_text(encoding="utf-8")
+    for page in (ROOT / "docs").glob("*.md"):
+        assert f": {page.name}" in nav, f"docs/{page.name} is missing in the nav of mkdocs.yml"
 
 
 def test_readme_has_one_test_command_that_ci_can_find():

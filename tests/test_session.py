@@ -22,7 +22,8 @@ def session():
 
 @pytest.mark.parametrize("changes", [{"theta": 25}, {"width": 6.5, "amplitude": 2.5}, {"creases": 9, "samples": 50},
                                      {"points": [[0, 0, 0], [40, 20, 8], [80, 16, 16], [120, 0, 18]]},
-                                     {"principal": True}])
+                                     {"curve": {"kind": "helix", "radius": 100, "pitch": 60, "turns": 0.5},
+                                      "theta": 30, "principal": True}])
 def test_an_update_gives_what_a_fresh_design_gives(session, changes):
     result = session.update(**changes)
     assert result.status == "exact"

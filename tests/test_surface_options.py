@@ -117,6 +117,7 @@ def test_principal_families_become_exact_where_gaps_are_even():
     assert result.report.crease_deviation.max < 0.5
 
 
+@pytest.mark.slow
 def test_principal_families_with_uneven_gaps_are_diagnosed():
     peak = {"height": "2*exp(-(x**2+y**2)/2)", "x": [-2, 2], "y": [-2, 2], "guide": [[-1.6, -0.3, 0], [1.6, 0.3, 0]]}
     result = plisse.design({"surface": peak, "pattern": {**SIZES, "width": 0.3, "amplitude": 0.22, "samples": 24},

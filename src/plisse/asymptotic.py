@@ -37,6 +37,7 @@ from plisse.structure.triangles import triangulated
 
 __all__ = ["along_asymptotic_curves"]
 
+MOST_TWIST = 8.0, 4.0  # τ/κ beside the legs of singularities, and where that fails
 COARSE = 12  # columns along a leg with which a structure is sought
 CELLS = 60  # of the mesh that stands for a formula
 TALLEST = 10.0  # amplitudes: pleats over higher surfaces seldom become exact
@@ -51,20 +52,21 @@ def along_asymptotic_curves(recipe: AsymptoticDesign, watch: Stopwatch, workspac
     try:
         chart, mesh, surface = _surface(recipe.surface)
         watch.start("layout", 0.05)
-        layout = _laid_out(chart, recipe, sizes)
-        amplitude = 0.5 * layout.width if pattern.amplitude is None else pattern.amplitude
+        whole = _laid_out(chart, recipe, sizes)
+        amplitude = 0.5 * whole.width if pattern.amplitude is None else pattern.amplitude
+        layout = whole.cut_along_legs(MOST_TWIST[0])
         refuse_twist(layout, amplitude)
+        watch.start("solve", 0.3)
+        found, tried = _solved(whole, layout, amplitude, workspace)
     except Infeasible as error:
         return broken_down(recipe, [str(error)], watch)
-    watch.start("solve", 0.3)
-    found, tried = raised(layout, amplitude, workspace)
     found, done = finer(found, rounds, workspace) if found.is_sound else (found, 0)
     watch.start("flatten", 0.7)
     structure = PleatedStructure(found.zigzag.topology, found.solved.vertices)
     structure = flatten(structure, best_cut(structure))
     watch.start("measure", 0.85)
     report = assess(structure, units=recipe.units)
-    reasons = [*_unfinished(found, amplitude), *report.reasons]
+    reasons = [*report.reasons, *_unfinished(found, amplitude)]
     notes = [f"the columns were doubled {done} of {rounds} times: with more the structure is not regular any more"] \
         if found.is_sound and done < rounds else []
     report = msgspec.structs.replace(
@@ -88,14 +90,29 @@ def _surface(section: AsymptoticSurface) -> tuple[Chart, ReferenceMesh | None, S
 
 
 def _laid_out(chart: Chart, recipe: AsymptoticDesign, sizes: Sizes) -> AsymptoticLayout:
-    """The layout with the columns it can have and consistent labels; without its polygons where they are cut out."""
+    """The layout before its legs are cut; without its polygons where they are left out."""
     refuse_positive_curvature(chart)
     layout = lay_out(chart, recipe.surface.family, sizes)
     refuse_crowded_hubs(layout)
     refuse_domes(layout)
-    layout = layout.cut_along_legs()
-    _ = layout.labels
     return replace(layout, hubs_cut=recipe.surface.hub == "cut")
+
+
+def _solved(whole: AsymptoticLayout, layout: AsymptoticLayout, amplitude: float,
+            workspace: Workspace) -> tuple[Raised, list[str]]:
+    """The best structure over a layout, or over one that is cut further along its legs, and an account of the others."""
+    found, tried = raised(layout, amplitude, workspace)
+    if found.is_sound:
+        return found, tried
+    try:
+        shorter = whole.cut_along_legs(MOST_TWIST[1])
+    except Infeasible:
+        return found, tried
+    if len(shorter.net.columns) == len(layout.net.columns):
+        return found, tried
+    again, more = raised(shorter, amplitude, workspace)
+    best, other = (again, found) if again.rank > found.rank else (found, again)
+    return best, [*tried, *more, other.account]
 
 
 def _unfinished(found: Raised, amplitude: float) -> list[str]:

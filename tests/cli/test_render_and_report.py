@@ -1,5 +1,7 @@
 """`plisse render` and `plisse report`: files, and one sentence for what they cannot do."""
 
+import sys
+
 import numpy as np
 import pytest
 from PIL import Image
@@ -69,6 +71,15 @@ def test_what_render_cannot_do_is_one_sentence_and_no_file(made, tmp_path, monke
     complaint = capsys.readouterr().err
     assert complaint.count("\n") == 1 and sentence in complaint
     assert list(tmp_path.iterdir()) == []
+
+
+def test_without_embree_pictures_are_made_all_the_same_unless_cast_light_is_asked_for(made, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr("plisse.draw.light.can_cast", lambda: False)
+    monkeypatch.setitem(sys.modules, "embreex", None)
+    assert run("render", made[0] / "structure.fold", "-o", tmp_path / "a.png", "--size", "100x80", "--quiet") == 0
+    assert run("render", made[0] / "structure.fold", "-o", tmp_path / "b.png", "--ambient") == 1
+    assert 'pip install "plisse[render]"' in capsys.readouterr().err
+    assert not (tmp_path / "b.png").exists()
 
 
 def test_a_deviation_needs_a_report(made, tmp_path, capsys):

@@ -147,6 +147,7 @@ def test_a_control_point_is_pulled(visitor, studio):
     tab = tab_of(studio)
     before = tab.desk.recipe.curve.points
     arrows = tab.handles.arrows
+    time.sleep(2)  # the camera has come to rest
     start = pixel(studio, arrows.position + np.array([0.6 * arrows.scale, 0, 0]))
     goal = pixel(studio, arrows.position + np.array([0.6 * arrows.scale + 10, 0, 0]))
     mouse = visitor.page.mouse

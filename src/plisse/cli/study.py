@@ -123,11 +123,18 @@ def _summarise(found: Study) -> None:
     console = Console(highlight=False)
     outcomes = [Text(f"{count} {status}", STYLES.get(status, "bold")) for status, count in found.counts.items()]
     console.print(Text(f"{len(found.rows)} designs: ", "bold") + Text(", ").join(outcomes))
-    reasons = Counter((row.status, row.reasons[0]) for row in found.rows if row.reasons)
-    for (status, reason), count in reasons.most_common(5):
-        console.print(Text(f"· {count} {status}: {reason}"))
+    alike = Counter((row.status, _kind(row.reasons[0])) for row in found.rows if row.reasons)
+    for (status, kind), count in alike.most_common(5):
+        console.print(Text(f"· {count} {status}: {kind}"))
     for file in sorted(file for file in found.directory.iterdir() if file.is_file() and not file.name.startswith(".")):
         console.print(Text(str(file), "dim"))
+
+
+def _kind(reason: str) -> str:
+    """What a reason says without its numbers and remedies."""
+    import re
+
+    return re.sub(r"[-+]?\d[\d.,]*(e[-+]?\d+)?", "…", re.split(r"[;:] | at | \(limit", reason)[0])
 
 
 @contextmanager

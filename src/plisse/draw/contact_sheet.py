@@ -14,17 +14,19 @@ __all__ = ["MOST", "Frame", "outcome_colour", "write_contact_sheet"]
 
 MOST = 120
 DOTS_PER_INCH = 100
-MARGIN, TITLE, CAPTION, GAP = 24, 56, 46, 10  # pixels
+MARGIN, TITLE, CAPTION, GAP = 24, 56, 58, 10  # pixels
+LETTERS, LINES = 46, 3  # of a caption
 GROUND = "#efebe3"
 _COLOURS = {"exact": "#4f7f52", "approximate": "#d8a33c", "infeasible": "#b8432f", "invalid": "#8d8271",
             "timeout": "#6b4a86", "memory": "#2f5f8a", "failed": "#2e2a27"}
 
 
 class Frame(NamedTuple):
-    """One picture: its PNG if there is one, lines of a caption, and the outcome that colours its bar."""
+    """One picture: its PNG if there is one, what it shows, what is said of it, and the outcome that colours its bar."""
 
     png: bytes | None
-    caption: Sequence[str]
+    design: str
+    verdict: str
     outcome: str
 
 
@@ -53,15 +55,23 @@ def write_contact_sheet(frames: Sequence[Frame], path: str | Path, *, title: str
         across, foot = slice(left, left + THUMBNAIL[0]), top + THUMBNAIL[1]
         page[top:foot, across] = _picture(frame)
         page[foot:foot + 4, across] = colours.rgb(outcome_colour(frame.outcome))
-        for number, line in enumerate(frame.caption[:2]):
-            axes.text(left + 2, top + THUMBNAIL[1] + 15 + 16 * number, line[:44], fontsize=6.5, va="center",
-                      color=colours.INK if number == 0 else colours.CAPTION, parse_math=False)
+        for number, (line, colour) in enumerate(_lines(frame)):
+            axes.text(left + 2, foot + 14 + 15 * number, line, fontsize=6.5, va="center", color=colour, parse_math=False)
         if frame.png is None:
             axes.text(left + THUMBNAIL[0] / 2, top + THUMBNAIL[1] / 2, frame.outcome, fontsize=9, ha="center", va="center",
                       color=colours.CAPTION)
     axes.imshow(page, extent=(0, width, height, 0), interpolation="nearest", aspect="auto", zorder=0)
     axes.text(MARGIN, MARGIN + TITLE / 2 - 8, title, fontsize=11, va="center", color=colours.INK, parse_math=False)
     FigureCanvasAgg(figure).print_png(str(path), metadata={"Software": None}, pil_kwargs={"compress_level": 6})
+
+
+def _lines(frame: Frame) -> list[tuple[str, str]]:
+    """Lines of a caption with their colours: what it is in one or two, what became of it in the last."""
+    from textwrap import shorten, wrap
+
+    design = wrap(frame.design, LETTERS, max_lines=LINES - 1, placeholder=" …")
+    verdict = shorten(frame.verdict, LETTERS, placeholder=" …")
+    return [(line, colours.INK) for line in design] + [(verdict, colours.CAPTION)]
 
 
 def _picture(frame: Frame) -> np.ndarray:

@@ -23,7 +23,7 @@ class Limits(Strict, kw_only=True, frozen=True):
     """What one design may cost: seconds, and memory in GiB beyond that of the program itself."""
 
     seconds: Annotated[float, Meta(gt=0, le=1e7, description="seconds above 0")] = 300.0
-    memory: Annotated[float, Meta(gt=0, le=1e5, description="GiB above 0")] = 4.0
+    memory: Annotated[float, Meta(ge=0.01, le=1e5, description="GiB from 0.01")] = 4.0
 
     @property
     def bytes(self) -> int:

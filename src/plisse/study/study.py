@@ -88,7 +88,7 @@ class Study:
             title += f", the best {len(shown)} by {by.replace('_', ' ')}"
         with Store(self.directory) as store:
             pictures = store.pictures(row.key for row in shown)
-        frames = [Frame(pictures.get(row.key), [described(row), _verdict(row)], row.status) for row in shown]
+        frames = [Frame(pictures.get(row.key), described(row), _verdict(row), row.status) for row in shown]
         with written(path) as aside:
             write_contact_sheet(frames, aside, title=title)
 

@@ -11,8 +11,10 @@ __all__ = ["refuse_crowded_hubs", "refuse_domes", "refuse_positive_curvature", "
 SAMPLES = 60  # along each side of the domain
 MOST_POSITIVE = 0.05  # of the vertices of a pattern
 RULING_ANGLE = 3.7  # τ/(κ sin β) at which rulings are 15° from the crease, β the slope of the strips
+STRAIGHT = 1e4
 MOST_TWIST = 2.0  # times as much in the median
-SMALLEST_HUB = 0.3  # widths
+SMALLEST_HUB = 0.4  # widths
+FLAT = 1e-9  # of the inverse square of the diagonal
 
 
 def refuse_positive_curvature(chart: Chart) -> None:
@@ -51,16 +53,18 @@ def refuse_twist(layout: AsymptoticLayout, amplitude: float) -> None:
     limit = RULING_ANGLE * slope / np.hypot(1, slope)
     twist = float(np.median(layout.bends.twist))
     if twist > MOST_TWIST * limit:
+        size = f"{twist:.2g} in the middle of all values" if twist < STRAIGHT else "beyond all bounds, for they are straight"
         raise Infeasible("the surface twists too much along its creases for such pleats: torsion over curvature is "
-                         f"{twist:.2g} in the middle of all values, and from {limit:.2g} on rulings are within 15° of the "
+                         f"{size}, and from {limit:.2g} on rulings are within 15° of the "
                          "creases; give a flatter surface, a larger pattern.amplitude, or the other surface.family")
 
 
 def _refuse(places: np.ndarray, chart: Chart, most: float, what: str) -> None:
-    curvature = chart.at(places).curvature
-    share = float(np.mean(curvature > 0))
+    curvature, points = chart.at(places).curvature, chart.positions(places)
+    share = float(np.mean(curvature > -FLAT / (np.ptp(points, axis=0) ** 2).sum()))
     if share > most:
-        where = chart.positions(places[np.argmax(curvature)][None])[0]
-        raise Infeasible(f"{what} has positive curvature over {100 * share:.0f} % of its area, most of all at "
-                         f"({', '.join(f'{x:.4g}' for x in where)}); asymptotic curves exist only where it is negative, so "
-                         "choose another part of the surface, or creases along a guide")
+        kind = "positive curvature" if curvature.max() > 0 else "no curvature"
+        where = ", ".join(f"{x:.4g}" for x in points[np.argmax(curvature)])
+        raise Infeasible(f"{what} has {kind} over {100 * share:.0f} % of its area, most of all at ({where}); asymptotic "
+                         "curves exist only where it is negative, so choose another part of the surface, or creases along a "
+                         "guide")

@@ -15,7 +15,7 @@ from plisse.errors import Infeasible
 from plisse.layout.asymptotic.bends import Bends
 from plisse.layout.asymptotic.overlay import Net
 
-__all__ = ["Labels", "labelled"]
+__all__ = ["Labels", "labelled", "propagated"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +43,7 @@ def labelled(net: Net, points: np.ndarray, bends: Bends) -> Labels:
     repeating[_strips(net)[len(topology.quads):]] = True
     repeats = ruling & repeating[strip]
     links = np.stack([net.crease[one[ruling]], net.crease[other[ruling]], np.where(repeats[ruling], 1, -1)], axis=1)
-    return Labels(_propagated(np.unique(links, axis=0), len(net.creases)), repeats)
+    return Labels(propagated(np.unique(links, axis=0), len(net.creases)), repeats)
 
 
 def _strips(net: Net) -> np.ndarray:
@@ -55,7 +55,11 @@ def _strips(net: Net) -> np.ndarray:
     return connected_components(graph, directed=False)[1]
 
 
-def _propagated(links: np.ndarray, count: int) -> np.ndarray:
+def propagated(links: np.ndarray, count: int) -> np.ndarray:
+    """Labels ±1 (C,) of creases, linked by rows (a, b, sign): sign 1 repeats a label, −1 changes it.
+
+    Creases without links get 0. Raises Infeasible where links contradict each other.
+    """
     neighbours: dict[int, list[tuple[int, int]]] = {}
     for a, b, sign in links.tolist():
         neighbours.setdefault(a, []).append((b, sign))

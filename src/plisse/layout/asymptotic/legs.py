@@ -9,22 +9,19 @@ from plisse.layout.asymptotic.rays import Ray, as_line, crossings
 
 __all__ = ["kept_columns"]
 
-MOST_TWIST = 8.0  # τ/κ beside a leg
 
-
-def kept_columns(net: Net, points: np.ndarray, bends: Bends, legs: tuple[Ray, ...],
-                 bisectors: tuple[Ray, ...]) -> np.ndarray:
+def kept_columns(net: Net, points: np.ndarray, bends: Bends, legs: tuple[Ray, ...], bisectors: tuple[Ray, ...],
+                 most_twist: float) -> np.ndarray:
     """Mask (M,) of the columns of a net that are not cut off along every leg they cross.
 
-    A leg is cut at the first column where the creases on its two sides twist too much or turn to the same side, never
-    between two singularities.
+    A leg is cut at the first column where the creases on its two sides have τ/κ above `most_twist` or turn to the same
+    side, never between two singularities.
     """
     columns = list(net.columns)
     crossed, cut = np.zeros(len(columns), int), np.zeros(len(columns), int)
     edges = net.topology.edges
     pairs = edges.vertices[~edges.is_crease]
-    twisted = bends.twist[pairs].max(axis=1) > MOST_TWIST
-    bad = twisted | (bends.facing(points, *pairs.T) > 0)
+    bad = (bends.twist[pairs].max(axis=1) > most_twist) | (bends.facing(points, *pairs.T) > 0)
     for leg in legs:
         reached = crossings(leg.leaf, columns)
         crossed += np.isfinite(reached)

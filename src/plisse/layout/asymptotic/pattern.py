@@ -89,14 +89,17 @@ class AsymptoticLayout:
         """Mountains and valleys; raises Infeasible where there are none that agree."""
         return labelled(self.net, self.points, self.bends)
 
-    def cut_along_legs(self) -> "AsymptoticLayout":
-        """Without the columns that lie where creases hardly bend; the same where there are no legs.
+    def cut_along_legs(self, most_twist: float) -> "AsymptoticLayout":
+        """Without the columns where creases beside legs have τ/κ above `most_twist`; the same where there are no legs.
 
         Raises Infeasible where nothing is left.
         """
         if not self.legs:
             return self
-        kept = kept_columns(self.net, self.points, self.bends, self.legs, self.bisectors)
+        kept = kept_columns(self.net, self.points, self.bends, self.legs, self.bisectors, most_twist)
+        if not kept.any():
+            raise Infeasible("the surface twists too much beside the legs of its singularities, from the first columns on; "
+                             "give a flatter surface, or a smaller part of it with a smaller pattern.width")
         return self._with_columns([leaf for leaf, stays in zip(self.net.columns, kept, strict=True) if stays])
 
     def refined(self) -> "AsymptoticLayout":
