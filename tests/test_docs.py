@@ -3,6 +3,7 @@
 import re
 import shlex
 import tomllib
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -63,7 +64,7 @@ def test_commands_of_the_tutorial_do_what_it_says(tmp_path, monkeypatch):
     for command in commands:
         name, *tokens = shlex.split(command)
         assert name == "plisse" and main(tokens) == 0, command
-        for flag, target in zip(tokens[:-1], tokens[1:], strict=True):
+        for flag, target in pairwise(tokens):
             assert flag != "-o" or (tmp_path / target).exists(), command
 
 

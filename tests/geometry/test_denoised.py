@@ -7,7 +7,7 @@ from plisse.geometry.denoised import SMOOTHINGS, denoised_graph
 from plisse.geometry.mesh import ReferenceMesh
 
 
-def scattered(noise, count=900):
+def scattered(noise, count=350):
     """A wavy graph over scattered points of a disk, with noise along z."""
     rng = np.random.default_rng(3)
     places = rng.uniform(-1, 1, (count, 2))
@@ -17,6 +17,8 @@ def scattered(noise, count=900):
     a, b, c = places[triangles].transpose(1, 0, 2)
     turned = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0] < 0
     triangles[turned] = triangles[turned][:, ::-1]
+    sides = np.stack([a - b, b - c, c - a])
+    triangles = triangles[np.hypot(*sides.transpose(2, 0, 1)).max(axis=0) < 0.25]  # without slivers along the rim
     return ReferenceMesh(np.column_stack([places, height]), triangles)
 
 

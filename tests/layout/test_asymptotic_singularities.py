@@ -28,10 +28,10 @@ def test_several_singularities_are_found_with_their_places_and_indices():
     assert abs(found[0].place) < 1e-6  # a double zero
 
 
-def test_saddles_and_domes_without_flat_points():
+def test_a_saddle_has_no_singularity_and_an_umbilic_of_a_dome_has_one():
     assert singularities(FormulaChart(HeightField("x*y"))) == ()
-    umbilic, = singularities(FormulaChart(HeightField("x**2 + y**2 + x**3")))
-    assert umbilic.index in (-0.5, 0.5)
+    umbilic, = singularities(FormulaChart(HeightField("x**2 + y**2 + x**3 - 3*x*y**2")))
+    assert umbilic.index == -0.5
 
 
 def test_a_skewed_monkey_saddle_keeps_its_index():
@@ -51,6 +51,6 @@ def test_separatrices_leave_at_equal_angles_with_bisectors_between(order, family
     legs, bisectors = (np.sort(np.angle(radial_directions(directions, hub, 0.05, field)) % (2 * np.pi))
                        for field in ("creases", "columns"))
     assert len(legs) == len(bisectors) == hub.sectors
-    np.testing.assert_allclose(np.diff(legs), 2 * np.pi / hub.sectors, atol=1e-5)  # interpolated between samples
+    np.testing.assert_allclose(np.diff(legs), 2 * np.pi / hub.sectors, atol=1e-4)  # interpolated between samples
     gap = (bisectors[:, None] - legs) % (2 * np.pi / hub.sectors)
-    np.testing.assert_allclose(gap, np.pi / hub.sectors, atol=1e-5)
+    np.testing.assert_allclose(gap, np.pi / hub.sectors, atol=1e-4)

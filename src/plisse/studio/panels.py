@@ -11,6 +11,7 @@ from plisse.studio.gallery_panel import GalleryPanel
 from plisse.studio.look_panel import LookPanel
 from plisse.studio.motion_panel import MotionPanel
 from plisse.studio.points_panel import PointsPanel
+from plisse.studio.status import Status
 from plisse.studio.surface_panel import SurfacePanel
 from plisse.studio.take_panel import TakePanel
 from plisse.studio.view import Tint
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Panels"]
 
-STATUS_HEIGHT = 270
+STATUS_HEIGHT, NARROW, LONGEST_LABEL = 270, 640, 60
 
 
 class Panels:
@@ -29,12 +30,8 @@ class Panels:
 
     def __init__(self, tab: Tab):
         self._tab, gui = tab, tab.client.gui
-        gui.main_panel.dock_right()
-        status = gui.add_panel()
-        with status.add_tab("Status"):
-            self._status = gui.add_html("")
-        status.dock_above(gui.main_panel)
-        status.set_height(STATUS_HEIGHT)
+        self._narrow = tab.client.camera.image_width < NARROW
+        self._status = self._narrow_status() if self._narrow else self._wide_status()
         self._undo = gui.add_button_group("history", ("undo", "redo"))
         self._undo.on_click(self._step)
         gui.add_command("Undo", hotkey="Z", modifier="cmd/ctrl").on_trigger(self._back)
@@ -53,6 +50,23 @@ class Panels:
             self._take = TakePanel(tab)
         self.refresh()
 
+    def _wide_status(self):
+        """A place for the status that stays when the controls below are scrolled."""
+        gui = self._tab.client.gui
+        gui.main_panel.dock_right()
+        panel = gui.add_panel()
+        with panel.add_tab("Status"):
+            status = gui.add_html("")
+        panel.dock_above(gui.main_panel)
+        panel.set_height(STATUS_HEIGHT)
+        return status
+
+    def _narrow_status(self):
+        """On a phone the controls are closed at first, and their title says the status."""
+        gui = self._tab.client.gui
+        gui.main_panel.minimize()
+        return gui.add_html("")
+
     @property
     def handles_wanted(self) -> bool:
         """Whether control points are to be seen."""
@@ -66,9 +80,11 @@ class Panels:
         """The handle of another point was clicked."""
         self._points.choose(index)
 
-    def say(self, html: str) -> None:
+    def say(self, status: Status) -> None:
         """Show a status."""
-        self._status.content = html
+        self._status.content = status.html
+        if self._narrow:
+            self._tab.client.gui.set_panel_label(status.brief[:LONGEST_LABEL])
 
     def note(self, words: str) -> None:
         """Show a passing message."""

@@ -102,9 +102,8 @@ class Scene:
         middle, radius = self.extent
         found = self._found
         if found is not None and found.sheet is not None and self.shown.sheet:
-            right = self._axes[0]
-            side = self._sheet_place(found)[2]
-            middle, radius = middle + 0.5 * side * right, radius + 0.5 * side
+            side, towards = self._sheet_place(found)[2], -self._axes[1] if self._is_upright else self._axes[0]
+            middle, radius = middle + 0.5 * side * towards, radius + 0.5 * side
         camera = self._client.camera
         half = np.arctan(np.tan(0.5 * FIELD_OF_VIEW) * min(1.0, camera.aspect))
         camera.fov = FIELD_OF_VIEW
@@ -140,8 +139,13 @@ class Scene:
             at = place + scale * (found.overlap @ self._axes[:2])
             self._mark("/overlap", at, 0.015 * self.extent[1], "overlaps here")
 
+    @property
+    def _is_upright(self) -> bool:
+        """Whether the window is higher than wide, so that the sheet lies below."""
+        return self._client.camera.aspect < 1
+
     def _sheet_place(self, found: Found) -> tuple[np.ndarray, float, float]:
-        """Origin (3,) of the sheet, its scale, and how far it reaches beyond the structure to the right."""
+        """Origin (3,) of the sheet, its scale, and how far it reaches beyond the structure."""
         assert found.sheet is not None
         assert found.folded is not None
         seen = found.folded.points @ self._axes.T
@@ -149,10 +153,14 @@ class Scene:
         flat = found.sheet.points[:, :2]
         size, room = np.ptp(flat, axis=0), float(np.linalg.norm(high - low))
         scale = 1 / max(1, np.ceil(SMALLEST * float(np.linalg.norm(size)) / room - 0.1))
-        gap = APART * room
-        corner = np.array([high[0] + gap, 0.5 * (low[1] + high[1] - scale * size[1]), 0.5 * (low[2] + high[2])])
+        gap, corner = APART * room, 0.5 * (low + high)
+        corner[:2] -= 0.5 * scale * size
+        if self._is_upright:
+            corner[1] = low[1] - gap - scale * size[1]
+        else:
+            corner[0] = high[0] + gap
         corner[:2] -= scale * flat.min(axis=0)
-        return corner @ self._axes, float(scale), float(gap + scale * size[0])
+        return corner @ self._axes, float(scale), float(gap + scale * size[1 if self._is_upright else 0])
 
     def _show_marks(self, found: Found) -> None:
         if found.seed is not None and self.shown.seed:

@@ -1,11 +1,12 @@
 """The words that always stand on screen: status, the report's sentences, the numbers that matter."""
 
+from dataclasses import dataclass
 from html import escape
 
 from plisse.result import Report
 from plisse.studio.requests import Found
 
-__all__ = ["failure_html", "numbers_of", "status_html", "working_html"]
+__all__ = ["Status", "failed", "numbers_of", "solved", "working"]
 
 MARKS = {"exact": ("✔", "#1f6b4a"), "approximate": ("≈", "#8a5a00"), "infeasible": ("✖", "#9b2f24"),
          "draft": ("…", "#4d463f")}
@@ -13,27 +14,34 @@ STYLE = "font-size:0.86em;line-height:1.35;padding:0.3em 0.7em"
 MOST_SENTENCES = 6
 
 
-def status_html(found: Found, title: str) -> str:
+@dataclass(frozen=True)
+class Status:
+    """What is to be said, in full as HTML, and in a few words."""
+
+    html: str
+    brief: str
+
+
+def solved(found: Found, title: str) -> Status:
     """Status, numbers and sentences of a solved design; those of a draft say that they are of a draft."""
     report = found.report
     sentences = [*report.reasons, *report.warnings]
     more = [f"and {len(sentences) - MOST_SENTENCES} more; the report has them all"] * (len(sentences) > MOST_SENTENCES)
     listed = "".join(f"<li>{escape(sentence)}</li>" for sentence in sentences[:MOST_SENTENCES] + more)
-    badge = _badge("draft" if found.drafted else report.status)
     note = f"coarse while you pull: {report.vertices:,} vertices" if found.drafted else title
-    return _block("status", f"{badge} <span>{escape(note)}</span>{_table(report)}"
-                            f"<ul style='margin:0.3em 0;padding-left:1.2em'>{listed}</ul>")
+    return _status("draft" if found.drafted else report.status, "", note,
+                   f"{_table(report)}<ul style='margin:0.3em 0;padding-left:1.2em'>{listed}</ul>")
 
 
-def failure_html(sentence: str) -> str:
+def failed(sentence: str) -> Status:
     """A request that came to nothing."""
-    return _block("alert", f"{_badge('infeasible', 'not done')} {escape(sentence)}")
+    return _status("infeasible", "not done", sentence, role="alert")
 
 
-def working_html(stage: str, fraction: float, before: Found | None) -> str:
+def working(stage: str, fraction: float, before: Found | None) -> Status:
     """What is being done; the numbers of the design before are pale, for they are not those of this one."""
     pale = "" if before is None else f"<div style='opacity:0.4'>{_table(before.report)}</div>"
-    return _block("status", f"{_badge('draft', 'working')} {escape(stage)} ({100 * fraction:.0f} %){pale}")
+    return _status("draft", "working", f"{stage} ({100 * fraction:.0f} %)", pale)
 
 
 def numbers_of(report: Report) -> list[tuple[str, str]]:
@@ -59,17 +67,15 @@ def numbers_of(report: Report) -> list[tuple[str, str]]:
     return rows
 
 
-def _block(role: str, content: str) -> str:
-    return f"<div role='{role}' aria-live='polite' style='{STYLE}'>{content}</div>"
+def _status(status: str, word: str, note: str, below: str = "", role: str = "status") -> Status:
+    mark, colour = MARKS[status]
+    badge = (f"<span id='plisse-status' style='background:{colour};color:white;border-radius:0.3em;padding:0.1em 0.5em'>"
+             f"{mark} {word or status}</span>")
+    return Status(f"<div role='{role}' aria-live='polite' style='{STYLE}'>{badge} {escape(note)}{below}</div>",
+                  f"{mark} {word or status} · {note}")
 
 
 def _table(report: Report) -> str:
     rows = "".join(f"<tr><td style='opacity:0.75;padding-right:1em'>{escape(name)}</td><td>{escape(value)}</td></tr>"
                    for name, value in numbers_of(report))
     return f"<table style='font-variant-numeric:tabular-nums'>{rows}</table>"
-
-
-def _badge(status: str, word: str = "") -> str:
-    mark, colour = MARKS[status]
-    return (f"<span id='plisse-status' style='background:{colour};color:white;border-radius:0.3em;padding:0.1em 0.5em'>"
-            f"{mark} {word or status}</span>")

@@ -32,7 +32,7 @@ from plisse.studio.requests import (
     Take,
 )
 from plisse.studio.scene import Scene
-from plisse.studio.status import failure_html, status_html, working_html
+from plisse.studio.status import failed, solved, working
 from plisse.studio.uploads import limit_uploads
 from plisse.studio.worker import Worker
 
@@ -73,7 +73,7 @@ class Tab:
         try:
             action()
         except PlisseError as error:
-            self.panels.say(failure_html(str(error)))
+            self.panels.say(failed(str(error)))
             return self.panels.refresh()
         if self.desk.step is not before:
             self._solve()
@@ -182,9 +182,9 @@ class Tab:
     def _receive(self, request: Request, message: Answer | Failure | Stage) -> None:
         if isinstance(message, Stage):
             if isinstance(request, Candidates) or (isinstance(request, Solve) and not self._pace.is_fast):
-                self.panels.say(working_html(message.name, message.fraction, self.found))
+                self.panels.say(working(message.name, message.fraction, self.found))
         elif isinstance(message, Failure):
-            self.panels.say(failure_html(message.sentence))
+            self.panels.say(failed(message.sentence))
             if isinstance(request, Fetch):
                 self._waiting_for_result.clear()
         else:
@@ -224,7 +224,7 @@ class Tab:
             self._framed = True
             self.scene.frame()
         self.show_handles()
-        self.panels.say(status_html(found, self.desk.step.title))
+        self.panels.say(solved(found, self.desk.step.title))
         self.panels.refresh()
         if not request.drafted:
             if self.solid[0] or self.colour:

@@ -18,6 +18,9 @@ PURPOSE = "studies"
 PATIENCE = 10.0  # seconds within which a worker that ends has not worked at all
 FAILURES = 5
 ANSWER_SECONDS = 20.0
+# Dask looks at itself a hundred times a second, which costs a twentieth of a core per worker
+UNWATCHED = {"distributed.worker.profile.enabled": False, "distributed.admin.tick.interval": "1s",
+             "distributed.admin.system-monitor.interval": "5s"}
 
 
 class Crew:
@@ -102,11 +105,13 @@ def crew(scheduler: str | None = None, workers: int | None = None) -> Iterator[C
 
 @contextmanager
 def _local(distributed, workers: int | None) -> Iterator[Crew]:
+    import dask
     from dask.system import CPU_COUNT
 
-    # designs whose worker dies come back to us at once, so that their attempts are counted
-    cluster = distributed.LocalCluster(n_workers=0, threads_per_worker=1, dashboard_address=":0", protocol="tcp",
-                                       silence_logs=logging.CRITICAL, scheduler_kwargs={"allowed_failures": 0})
+    with dask.config.set(UNWATCHED):
+        # designs whose worker dies come back to us at once, so that their attempts are counted
+        cluster = distributed.LocalCluster(n_workers=0, threads_per_worker=1, dashboard_address=":0", protocol="tcp",
+                                           silence_logs=logging.CRITICAL, scheduler_kwargs={"allowed_failures": 0})
     with cluster, distributed.Client(cluster, set_as_default=False) as client:
         found = Crew(client, cluster.scheduler_address, workers or CPU_COUNT)
         try:

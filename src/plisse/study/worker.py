@@ -16,7 +16,12 @@ def main(address: str) -> None:
     import asyncio
     import logging
 
+    import dask
     from distributed import Worker
+
+    from plisse.study.crew import UNWATCHED
+
+    dask.config.set(UNWATCHED)
 
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
 
