@@ -37,7 +37,7 @@ def results():
 
 
 def test_the_designs_of_the_figures_are_all_there():
-    wanted = {*SIZES, "fig05", "fig15a", "fig15b", "fig26"}
+    wanted = {*SIZES, "fig05", "fig15a", "fig15b", "fig18", "fig22", "fig26"}
     assert wanted <= set(NAMES)
 
 
@@ -87,6 +87,18 @@ def test_designs_have_the_sizes_of_figure_21(name, results):
     report = results(name).report
     assert report.vertices == creases * samples
     assert report.faces == (creases - 1) * (samples - (not closed))
+
+
+@pytest.mark.parametrize(("name", "vertices", "faces", "hubs"),
+                         [("fig18", 12_740, 12_332, 2), ("fig22", 3027, 2880, 1)])
+def test_patterns_with_singularities_have_about_the_sizes_of_figure_21_and_are_one_piece(name, vertices, faces, hubs, results):
+    result = results(name)
+    # columns come in pairs, so sizes can only be met to a few percent
+    assert result.report.vertices == pytest.approx(vertices, rel=0.04)
+    assert result.report.faces == pytest.approx(faces, rel=0.04)
+    assert [len(hub) for hub in result.structure.topology.hubs] == [6] * hubs
+    assert result.report.development.pieces == 1
+    assert not result.report.development.overlaps
 
 
 CLOSED_FAMILIES = {"fig12": (60, 60), "fig20a": (60, 40), "fig20b": (80, 60)}

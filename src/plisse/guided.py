@@ -38,13 +38,16 @@ EVEN = 1.25  # largest over smallest width of a strip up to which principal stru
 
 def guided(recipe: SurfaceDesign, mesh: ReferenceMesh, surface: Surface, watch: Stopwatch) -> Result:
     """Creases of constant inclination, shot from a guide or around a point, and what becomes of them."""
+    watch.start("layout", 0.1)
     try:
         family = family_of(recipe.surface, recipe.pattern, mesh, surface)
         if recipe.surface.crop == "outline":
+            watch.start("solve", 0.3)
             return _to_the_outline(recipe, family, mesh, surface, watch)
         start = _start(recipe, family, surface)
     except Infeasible as error:
         return broken_down(recipe, [str(error)], watch)
+    watch.start("solve", 0.3)
     return (_by_the_paper if recipe.solve.method == "paper" else _exactly)(recipe, start, mesh, surface, watch)
 
 

@@ -41,9 +41,9 @@ def reconstructed(recipe: SurfaceDesign, watch: Stopwatch) -> Result:
         mesh, surface = reference_surface(recipe.surface)
     except Infeasible as error:
         return broken_down(recipe, [str(error)], watch)
-    watch.start("solve", 0.1)
     if recipe.surface.is_guided:
         return guided(recipe, mesh, surface, watch)
+    watch.start("solve", 0.1)
     assert isinstance(surface, GraphSurface | ParametricSurface)
     try:
         if recipe.pattern.initial == "normal":

@@ -6,7 +6,7 @@ from importlib.resources import files
 import msgspec
 
 from plisse.pipeline import design
-from plisse.result import Report
+from plisse.result import Report, Spread
 
 __all__ = ["PRINTED", "Printed", "Row", "as_markdown", "table"]
 
@@ -53,10 +53,10 @@ class Row(msgspec.Struct, frozen=True, kw_only=True):
     faces: int
     iterations: int
     seconds: float
-    planarity_max: float | None
-    planarity_mean: float | None
-    angle_max: float | None
-    angle_mean: float | None
+    planarity_max: float
+    planarity_mean: float
+    angle_max: float
+    angle_mean: float
     status: str
     paper_seconds: float
 
@@ -78,7 +78,7 @@ def table(names: Iterable[str] | None = None, *, progress: Callable[[str, float]
 def as_markdown(rows: Iterable[Row]) -> str:
     """The table in Markdown, with the paper's numbers beside ours and the totals below."""
     rows = list(rows)
-    lines = ["| figure | vertices | faces | steps | seconds | paper | planarity max | paper | angle defect max | paper | status |",
+    lines = ["| figure | vertices | faces | steps | seconds | paper | planarity | paper | angle defect | paper | status |",
              "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|---|"]
     for row in rows:
         printed = PRINTED[row.name]
@@ -98,12 +98,11 @@ def totals(rows: Iterable[Row]) -> tuple[float, float]:
 
 
 def _row(name: str, report: Report) -> Row:
-    plan, angle = report.planarity, report.angle_defect
+    none = Spread(0.0, 0.0)  # of designs that broke down: their status says so
+    plan, angle = report.planarity or none, report.angle_defect or none
     return Row(name=name, vertices=report.vertices, faces=report.faces, iterations=report.iterations,
-               seconds=report.seconds.get("solve", 0.0),
-               planarity_max=plan and plan.max, planarity_mean=plan and plan.mean,
-               angle_max=angle and angle.max, angle_mean=angle and angle.mean,
-               status=report.status, paper_seconds=PRINTED[name].seconds)
+               seconds=report.seconds.get("solve", 0.0), planarity_max=plan.max, planarity_mean=plan.mean,
+               angle_max=angle.max, angle_mean=angle.mean, status=report.status, paper_seconds=PRINTED[name].seconds)
 
 
 def _power(value: float | None) -> str:

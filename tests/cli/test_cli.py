@@ -7,11 +7,11 @@ import pytest
 
 from plisse.cli.app import main
 from plisse.cli.make import FILES, write_files
-from plisse.shipped import description, find_design, shipped_names
 from plisse.io.fold import read_fold, write_fold
 from plisse.io.obj import read_obj, write_obj
 from plisse.recipe import Arc, Design, Pattern
 from plisse.result import Report, Result
+from plisse.shipped import description, find_design, shipped_names
 
 DESIGN = """# a quarter of alternating cones
 [curve]

@@ -3,8 +3,8 @@
 import pytest
 
 import plisse
-from plisse.shipped import find_design
 from plisse.fabricate import sheets
+from plisse.shipped import find_design
 
 
 @pytest.fixture(scope="session")

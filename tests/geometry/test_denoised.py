@@ -33,8 +33,7 @@ def test_second_derivatives_are_nearer_to_the_truth_than_without_smoothing():
     places = np.array([[0.1, 0.2], [-0.4, 0.1], [0.3, -0.4], [-0.2, -0.3]])
 
     def error(graph):
-        points = np.column_stack([places, np.zeros(len(places))])
-        at = graph.project(points + [0, 0, 0.2]).bending[:, 0, 0]
+        at = graph.project(np.column_stack([places, np.full(len(places), 0.2)])).bending[:, 0, 0]
         return np.abs(at + 0.8 * np.sin(2 * places[:, 0]) * np.cos(1.5 * places[:, 1])).max()
 
     assert error(denoised_graph(mesh)) < 0.5 * error(denoised_graph(mesh, 0.4))

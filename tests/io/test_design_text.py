@@ -4,9 +4,9 @@ import tomllib
 
 import pytest
 
-from plisse.shipped import shipped_design, shipped_names
 from plisse.io.design_text import design_text
 from plisse.io.designs import design_from_dict, read_design
+from plisse.shipped import shipped_design, shipped_names
 
 
 @pytest.mark.parametrize("name", shipped_names())

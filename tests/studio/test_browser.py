@@ -104,7 +104,7 @@ def pixel(studio, point):
 
 def isometry_and_planarity(document):
     """Largest difference of edge lengths flat and folded, and largest distance of quad diagonals, from the file alone."""
-    flat, folded = np.array(document["vertices_coords"], float), np.array(document["file_frames"][0]["vertices_coords"], float)
+    flat, folded = (np.array(frame["vertices_coords"], float) for frame in (document, document["file_frames"][0]))
     a, b = np.array(document["edges_vertices"]).T
     lengths = [np.linalg.norm(points[a] - points[b], axis=1) for points in (flat, folded)]
     quads = folded[np.array(document["faces_vertices"])]

@@ -66,7 +66,7 @@ class Surface(Strict, kw_only=True, frozen=True):
     guide_closed: bool = False
     point: Point | None = None
     directions: Annotated[Literal["tuned", "orthogonal"] | Degrees | Turn, Meta(
-        description="tuned, orthogonal or degrees from 20 to 160 along a guide, [from, to] in degrees at a point")] | None = None
+        description="tuned, orthogonal or degrees from 20 to 160 along a guide, [from, to] at a point")] | None = None
     reach: Length | None = None
     handles: list[Pull] | None = None
     edited_file: str | None = None

@@ -41,7 +41,8 @@ class CoarseToFine:
                                       fairness=self.fairness, workspace=start.workspace)
                     iterations += self.steps * len(WEIGHTS)
                 last = samples == start.samples
-                done = polish(start.workspace.constraints(level.topology, start.principal), vertices, chord=last and samples > 60,
+                conditions = start.workspace.constraints(level.topology, start.principal)
+                done = polish(conditions, vertices, chord=last and samples > 60,
                               steps=12 if last else 8 if displacement is None else 2)
                 iterations += len(done.history) - 2
                 history += done.history[:-1]

@@ -11,7 +11,8 @@ STYLE = f"<style>div:has(> div > [data-dock-root]) {{ background-color: {BACKGRO
 # viser puts words beside its controls without saying so to the browser: sliders and their numbers have no name
 SCRIPT = """<script>
 (() => {
-  const name = () => {
+  let closed = false;  // on a phone the structure is seen first, the controls when their title is tapped
+  const amend = () => {
     waiting = false;
     document.querySelectorAll("label[for]").forEach((label) => {
       const row = label.closest(".mantine-Flex-root");
@@ -22,6 +23,11 @@ SCRIPT = """<script>
         if (control.id !== label.htmlFor) control.setAttribute("aria-label", k ? `${words}, ${k + 1}` : words);
       });
     });
+    const sheet = document.querySelector('[style*="max-height: 60%"]');
+    if (sheet && !closed) {
+      closed = true;
+      [...sheet.querySelectorAll("div")].find((part) => part.style.cursor === "pointer")?.click();
+    }
     document.querySelectorAll("canvas").forEach((canvas) => {
       canvas.setAttribute("role", "img");
       canvas.setAttribute("aria-label", "the folded structure and its flat sheet");
@@ -36,7 +42,7 @@ SCRIPT = """<script>
   new MutationObserver(() => {
     if (waiting) return;
     waiting = true;
-    requestAnimationFrame(name);
+    requestAnimationFrame(amend);
   }).observe(document, { childList: true, subtree: true, characterData: true });
 })();
 </script>"""

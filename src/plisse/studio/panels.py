@@ -31,7 +31,7 @@ class Panels:
     def __init__(self, tab: Tab):
         self._tab, gui = tab, tab.client.gui
         self._narrow = tab.client.camera.image_width < NARROW
-        self._status = self._narrow_status() if self._narrow else self._wide_status()
+        self._status = gui.add_html("") if self._narrow else self._status_above()
         self._undo = gui.add_button_group("history", ("undo", "redo"))
         self._undo.on_click(self._step)
         gui.add_command("Undo", hotkey="Z", modifier="cmd/ctrl").on_trigger(self._back)
@@ -50,7 +50,7 @@ class Panels:
             self._take = TakePanel(tab)
         self.refresh()
 
-    def _wide_status(self):
+    def _status_above(self):
         """A place for the status that stays when the controls below are scrolled."""
         gui = self._tab.client.gui
         gui.main_panel.dock_right()
@@ -60,12 +60,6 @@ class Panels:
         panel.dock_above(gui.main_panel)
         panel.set_height(STATUS_HEIGHT)
         return status
-
-    def _narrow_status(self):
-        """On a phone the controls are closed at first, and their title says the status."""
-        gui = self._tab.client.gui
-        gui.main_panel.minimize()
-        return gui.add_html("")
 
     @property
     def handles_wanted(self) -> bool:

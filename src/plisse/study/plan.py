@@ -1,7 +1,6 @@
 """STUDY.toml: a base design, the keys to vary, limits, and what to show at the end."""
 
 import tomllib
-from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -11,6 +10,7 @@ from msgspec import Meta
 from plisse.errors import InvalidDesign
 from plisse.io.mistakes import refuse_non_finite
 from plisse.recipe.fields import Strict
+from plisse.shipped import shipped_design, shipped_names
 
 __all__ = ["Limits", "Map", "Plan", "read_plan"]
 
@@ -80,9 +80,8 @@ def read_plan(source: str | Path | dict) -> Plan:
 def _base_file(folder: Path, name: str) -> Path:
     if (folder / name).is_file():
         return folder / name
-    shipped = Path(str(files("plisse") / "gallery" / f"{name}.toml"))
-    if "/" not in name and shipped.is_file():
-        return shipped
+    if name in shipped_names():
+        return shipped_design(name)
     raise InvalidDesign(f"base is {name!r}, but there is no such file beside the study and no such design in the gallery; "
                         "`plisse gallery` lists the names")
 

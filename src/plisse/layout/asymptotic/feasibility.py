@@ -4,7 +4,7 @@ import numpy as np
 
 from plisse.errors import Infeasible
 from plisse.geometry.chart import Chart
-from plisse.layout.asymptotic.pattern import AsymptoticLayout
+from plisse.layout.asymptotic.pattern import AsymptoticLayout, room_in_the_middle
 
 __all__ = ["refuse_crowded_hubs", "refuse_domes", "refuse_positive_curvature", "refuse_twist"]
 
@@ -13,7 +13,7 @@ MOST_POSITIVE = 0.05  # of the vertices of a pattern
 RULING_ANGLE = 3.7  # τ/(κ sin β) at which rulings are 15° from the crease, β the slope of the strips
 STRAIGHT = 1e4
 MOST_TWIST = 2.0  # times as much in the median
-SMALLEST_HUB = 0.4  # widths
+SMALLEST_HUB = 0.75  # of the room that is taken where none is asked for
 FLAT = 1e-9  # of the inverse square of the diagonal
 
 
@@ -35,7 +35,7 @@ def refuse_crowded_hubs(layout: AsymptoticLayout) -> None:
     """Raises Infeasible where columns begin too near to a singularity, or where two singularities share one polygon."""
     if not layout.hubs:
         return
-    least = SMALLEST_HUB * layout.width
+    least = SMALLEST_HUB * room_in_the_middle(layout.hubs) * layout.width
     if layout.hub < least:
         raise Infeasible(f"the first columns are {layout.hub:.3g} from the singularity, too near for creases "
                          f"{layout.width:.3g} apart: faces around it would be slivers; give pattern.hub_size of at least "

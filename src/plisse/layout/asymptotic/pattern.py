@@ -18,7 +18,7 @@ from plisse.layout.asymptotic.singularities import Singularity, singularities
 from plisse.layout.asymptotic.spacing import Spacing, evenly, spaced
 from plisse.structure.topology import Topology
 
-__all__ = ["AsymptoticLayout", "Sizes", "lay_out"]
+__all__ = ["AsymptoticLayout", "Sizes", "lay_out", "room_in_the_middle"]
 
 STEP = 1 / 50  # of the domain's diagonal
 PATCH = 2.0  # widths through which curves pass without asymptotic directions
@@ -158,12 +158,17 @@ def _around_hubs(directions: Directions, hubs: tuple[Singularity, ...], sizes: S
     limits = replace(limits, patch=PATCH * width)
     span = (sizes.creases + FIRST_CREASE - 1) * width
     reach = min(max(ray.leaf.length for ray in legs), 1.2 * span) if sizes.reach is None else sizes.reach
-    hub = max(0.12 * reach, 0.5 * width) if sizes.hub is None else sizes.hub
+    hub = max(0.12 * reach, room_in_the_middle(hubs) * width) if sizes.hub is None else sizes.hub
     gap = (reach - hub) / max(sizes.columns - 1, 1)
     creases = spaced(directions, "creases", bisectors, legs, Spacing(FIRST_CREASE * width, width, span), limits)
     columns = spaced(directions, "columns", legs, bisectors, Spacing(hub, gap, reach), limits)
     net = overlay(creases, columns, tuple(single.place for single in hubs))
     return AsymptoticLayout(directions, hubs, legs, bisectors, limits, width, hub, net)
+
+
+def room_in_the_middle(hubs: tuple[Singularity, ...]) -> float:
+    """Distance of the first columns from singularities, in widths: more sectors need more room."""
+    return 0.4 * max(hub.sectors for hub in hubs) - 0.7
 
 
 def _regular(directions: Directions, sizes: Sizes, limits: Limits) -> AsymptoticLayout:
