@@ -1,4 +1,4 @@
-"""Pictures of the shipped designs for the studio's gallery: `python docs/thumbnails.py [NAME …]`, all that are missing if none.
+"""Pictures of the shipped designs for the studio's gallery: `python docs/thumbnails.py [NAME …]`, without names the missing.
 
 Written into src/plisse/gallery/thumbnails; run it again for a design whose TOML was changed.
 """

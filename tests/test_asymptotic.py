@@ -11,6 +11,8 @@ import plisse
 from plisse.cli import main
 from plisse.errors import InvalidDesign, InvalidMesh
 from plisse.measure.isometry import isometry_defect
+from plisse.measure.sectors import sector_angles
+from plisse.structure.chains import boundary_loops
 
 MONKEY = {"kind": "asymptotic", "formula": "0.3*(x**3 - 3*x*y**2)"}
 SMALL = {"creases": 5, "columns": 16}
@@ -80,6 +82,10 @@ def test_a_polygon_that_is_cut_out_leaves_an_annulus_with_more_than_a_full_turn_
     assert topology.hubs == ()
     assert topology.euler_characteristic == 0
     assert not result.structure.cut.is_trivial
+    hole = min(boundary_loops(topology), key=len)
+    around = np.bincount(topology.corners.vertex, sector_angles(topology, result.structure.vertices))
+    cone = (around[hole] - np.pi).sum()  # 2π for a hole in a flat sheet
+    assert np.radians(365) < cone < np.radians(420)
 
 
 def scattered(path, noise, count=1100, seed=5):

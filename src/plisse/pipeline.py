@@ -23,7 +23,7 @@ from plisse.solve.flatten import flatten, laid_out
 from plisse.solve.forecast import forecast
 from plisse.solve.marching import marched_design
 from plisse.solve.paper import solve_paper
-from plisse.solve.portfolio import GENERAL, PRINCIPAL, SECOND_CHANCE, Way, solve
+from plisse.solve.portfolio import CONSTRUCTED_ONLY, GENERAL, OPTIMISED_ONLY, PRINCIPAL, SECOND_CHANCE, Way, solve
 from plisse.solve.workspace import Workspace
 from plisse.solve.zigzag import zigzag
 from plisse.stopwatch import Stopwatch
@@ -163,12 +163,18 @@ def _notes(start: Start, guide: Guiding) -> list[str]:
 
 
 def _plans(recipe: Design, guide: Guiding, workspace: Workspace) -> Iterator[tuple[Start, tuple[Way, ...]]]:
-    """The pattern as designed, then patterns whose binormals are smoothed differently, then an odd number of samples."""
+    """The pattern as designed, then patterns whose binormals are smoothed differently, then an odd number of samples.
+
+    General designs that will not come out are tried as principal ones too: those are exact as well, and stiffer.
+    """
     assert recipe.curve is not None
     assert recipe.pattern is not None
     amplitude, principal = guide.amplitude, recipe.solve.principal
     ways = PRINCIPAL if principal else GENERAL
     yield Start(guide.pattern, amplitude, guide.samples, principal, workspace=workspace), ways
+    stiff = Start(guide.pattern, amplitude, guide.samples, True, "as a principal structure", workspace)
+    if not principal:
+        yield stiff, OPTIMISED_ONLY
     for factor in (2.0, 0.5, 4.0):
         try:
             other = guiding(recipe.curve, recipe.pattern, smoothing_factor=factor)
@@ -176,5 +182,7 @@ def _plans(recipe: Design, guide: Guiding, workspace: Workspace) -> Iterator[tup
             continue
         label = f"binormals smoothed {factor:g} times as far"
         yield Start(other.pattern, amplitude, guide.samples, principal, label, workspace), SECOND_CHANCE
+    if not principal:
+        yield stiff, CONSTRUCTED_ONLY
     if principal and recipe.is_closed and guide.samples % 2 == 0:
         yield Start(guide.pattern, amplitude, guide.samples + 1, principal, "one sample more, to close", workspace), ways

@@ -143,6 +143,19 @@ def test_a_design_is_changed_moved_taken_away_and_taken_back(visitor, studio):
     until(lambda: visitor.text == changed)
 
 
+def test_a_design_of_the_gallery_is_picked_by_its_picture_and_painted(visitor, studio):
+    tab = tab_of(studio)
+    visitor.button("Gallery …")
+    visitor.page.get_by_role("img", name="fig10").wait_for()
+    visitor.button("Open fig10")
+    until(lambda: tab.desk.step.title == "fig10" and tab.found.report.vertices == 9)
+    visitor.wait_for("exact fig10")
+    visitor.tab("Look")
+    visitor.page.get_by_label("colours").click()
+    visitor.page.get_by_role("option", name="opening").click()
+    visitor.wait_for("opening angle of creases")
+
+
 def test_a_control_point_is_pulled(visitor, studio):
     tab = tab_of(studio)
     before = tab.desk.recipe.curve.points

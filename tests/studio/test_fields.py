@@ -8,6 +8,7 @@ from plisse.session import changed
 from plisse.shipped import shipped_design, shipped_names
 from plisse.studio.downloads import KINDS, file_name
 from plisse.studio.fields import fields_of, value_of_text
+from plisse.studio.gallery_panel import thumbnail_html
 from plisse.studio.handles import control_points_of, snapped, with_point_after, without_point
 from plisse.studio.pace import Pace
 from plisse.studio.requests import Found
@@ -65,6 +66,11 @@ def test_what_takes_long_is_drafted_with_fewer_samples():
     pace.learn(Found(report, False), 0.001)
     assert pace.draft(SPLINE) is None
     assert not pace.waits(SPLINE)
+
+
+def test_every_shipped_design_has_its_picture():
+    """`python docs/thumbnails.py` draws those that are missing."""
+    assert [name for name in shipped_names() if "<img" not in thumbnail_html(name)] == []
 
 
 @pytest.mark.parametrize("title", ["../../etc/passwd", "Fig. 1d: a <b>", "", "ü" * 90, "con.\\x"])

@@ -110,7 +110,7 @@ class Transfers:
     def __init__(self):
         self.handlers, self.taken, self.refused = {}, [], []
         self.gui = SimpleNamespace(_current_file_upload_states={}, _handle_file_transfer_start=self._begin,
-                                   _handle_file_transfer_part=lambda client, message: self.taken.append(len(message.content)))
+                                   _handle_file_transfer_part=self._take)
         self._websock_connection = SimpleNamespace(unregister_handler=lambda kind: None,
                                                    register_handler=self.handlers.__setitem__)
         limit_uploads(self)
@@ -118,12 +118,15 @@ class Transfers:
     def _begin(self, client, message):
         self.gui._current_file_upload_states[message.transfer_uuid] = message
 
+    def _take(self, client, message):
+        self.taken.append(len(message.content))
+
     def add_notification(self, title, words, color):
         self.refused.append(title)
 
     def start(self, name, size, parts=2):
-        self.handlers[messages.FileTransferStartUpload](0, messages.FileTransferStartUpload("button", name, "a.obj", "", parts,
-                                                                                            size))
+        begin = messages.FileTransferStartUpload("button", name, "a.obj", "", parts, size)
+        self.handlers[messages.FileTransferStartUpload](0, begin)
 
     def part(self, name, content):
         self.handlers[messages.FileTransferPart](0, messages.FileTransferPart("button", name, 0, content))

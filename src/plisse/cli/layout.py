@@ -114,7 +114,8 @@ def _recipe(file: str) -> SurfaceDesign:
         return SurfaceDesign(surface=Surface(file=file))
     recipe = read_design(find_design(file))
     if not isinstance(recipe, SurfaceDesign):
-        raise InvalidDesign(f"{file} has no surface section, so there is nothing to lay out; give a mesh or such a design")
+        raise InvalidDesign(f"{file} has no surface section that leaves a choice, so there is nothing to lay out; give a "
+                            "mesh or such a design")
     return recipe
 
 

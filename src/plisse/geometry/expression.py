@@ -17,7 +17,7 @@ ALLOWED = "numbers, {names}, pi, + - * / **, {functions} and {last}"
 
 @dataclass(frozen=True, eq=False)
 class Jet:
-    """A value with its derivatives up to the second: `part` (6, N) holds z, zx, zy, zxx, zxy, zyy."""
+    """A value with its derivatives up to the second: `part` (6, N) holds z, zx, zy, zxx, zxy, zyy; (6, 1) for constants."""
 
     part: np.ndarray
 
@@ -28,6 +28,9 @@ class Jet:
         return Jet(self.part - other.part)
 
     def __mul__(self, other: "Jet") -> "Jet":
+        for constant, factor in ((self, other), (other, self)):
+            if constant.part.shape[1] == 1 and not constant.part[1:].any():
+                return Jet(constant.part[0] * factor.part)
         (a, ax, ay, axx, axy, ayy), (b, bx, by, bxx, bxy, byy) = self.part, other.part
         return Jet(np.stack([a * b, ax * b + a * bx, ay * b + a * by, axx * b + 2 * ax * bx + a * bxx,
                              axy * b + ax * by + ay * bx + a * bxy, ayy * b + 2 * ay * by + a * byy]))
@@ -48,6 +51,9 @@ def _power(base: Jet, exponent: Jet) -> Jet:
     if exponent.part[1:].any():
         return _exp(exponent * _log(base))
     n, v = exponent.part[0], base.part[0]
+    if len(n) == 1 and n[0] > 1 and n[0] == round(n[0]):
+        k = int(n[0])
+        return base.through(v**k, k * v ** (k - 1), k * (k - 1) * v ** (k - 2))
     first = np.where(n == 0, 0.0, n * v ** np.where(n == 0, 1.0, n - 1))
     flat = (n == 0) | (n == 1)
     return base.through(v**n, first, np.where(flat, 0.0, n * (n - 1) * v ** np.where(flat, 1.0, n - 2)))
@@ -104,7 +110,7 @@ def height_expression(text: str) -> Callable[[np.ndarray, np.ndarray], np.ndarra
         x, y = (np.asarray(a, dtype=float).ravel() for a in np.broadcast_arrays(x, y))
         with np.errstate(all="ignore"):
             part = jet_of(tree, {"x": _seed(x, 1), "y": _seed(y, 2)}).part
-        return np.where(np.isfinite(part).all(axis=0), part, np.nan)
+        return np.where(np.isfinite(part).all(axis=0), part, np.full((6, len(x)), np.nan))
 
     return heights
 
@@ -124,9 +130,9 @@ def jet_of(tree: ast.expr, seeds: dict[str, Jet]) -> Jet:
     """Value and derivatives of a checked formula where its names have the values `seeds`, real or complex."""
     match tree:
         case ast.Constant(value=int() | float() as value):
-            return _constant(value, seeds)
+            return _constant(value)
         case ast.Name(id=name):
-            return _constant(np.pi, seeds) if name == "pi" else seeds[name]
+            return _constant(np.pi) if name == "pi" else seeds[name]
         case ast.UnaryOp(op=op, operand=operand):
             inner = jet_of(operand, seeds)
             return Jet(-inner.part) if isinstance(op, ast.USub) else inner
@@ -191,8 +197,8 @@ def _seed(value: np.ndarray, slot: int) -> Jet:
     return Jet(part)
 
 
-def _constant(value: float, seeds: dict[str, Jet]) -> Jet:
-    part = np.zeros_like(next(iter(seeds.values())).part)
+def _constant(value: float) -> Jet:
+    part = np.zeros((6, 1))  # one column is enough; it is broadcast
     part[0] = value
     return Jet(part)
 

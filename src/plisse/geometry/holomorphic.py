@@ -19,12 +19,11 @@ def holomorphic(text: str, what: str) -> Callable[[np.ndarray], tuple[np.ndarray
     tree = checked_formula(text, ("z", "i"), what, FUNCTIONS)
 
     def at(z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        part = np.zeros((6, len(z)), complex)
+        part, constant = np.zeros((6, len(z)), complex), np.zeros((6, 1), complex)
         part[0], part[1] = z, 1  # the first of two real variables is z; nothing depends on the second
-        constant = np.zeros_like(part)
         constant[0] = 1j
         with np.errstate(all="ignore"):
-            value, derivative = jet_of(tree, {"z": Jet(part), "i": Jet(constant)}).part[:2]
+            value, derivative = np.broadcast_to(jet_of(tree, {"z": Jet(part), "i": Jet(constant)}).part, part.shape)[:2]
         defined = np.isfinite(value) & np.isfinite(derivative)
         return np.where(defined, value, np.nan), np.where(defined, derivative, np.nan)
 

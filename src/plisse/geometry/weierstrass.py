@@ -16,7 +16,7 @@ from plisse.geometry.holomorphic import holomorphic
 
 __all__ = ["MinimalSurface"]
 
-PANELS, NODES = 8, 12
+PANELS, NODES = 4, 12
 CHECKED = 41  # places along each side where the data must be defined
 
 Holomorphic = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]

@@ -9,7 +9,7 @@ from plisse.solve.attempt import Attempt, Start
 from plisse.solve.coarse_to_fine import CoarseToFine
 from plisse.solve.explicit import constructed
 
-__all__ = ["GENERAL", "GUIDED_PRINCIPAL", "PRINCIPAL", "SECOND_CHANCE", "Judged", "Outcome", "solve"]
+__all__ = ["CONSTRUCTED_ONLY", "GENERAL", "GUIDED_PRINCIPAL", "PRINCIPAL", "SECOND_CHANCE", "Judged", "Outcome", "solve"]
 
 Way = Callable[[Start], Attempt]
 
@@ -23,6 +23,8 @@ STIFFER = CoarseToFine("optimised with stiffer strips", columns=60, steps=3,
 
 GENERAL: tuple[Way, ...] = (OPTIMISED, GENTLE)
 PRINCIPAL: tuple[Way, ...] = (OPTIMISED, constructed, GENTLE)
+OPTIMISED_ONLY: tuple[Way, ...] = (OPTIMISED,)
+CONSTRUCTED_ONLY: tuple[Way, ...] = (constructed,)
 SECOND_CHANCE: tuple[Way, ...] = (OPTIMISED, GENTLE, STIFF)
 GUIDED_PRINCIPAL: tuple[Way, ...] = (GENTLE, STIFF, STIFFER)
 

@@ -5,6 +5,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+from plisse.draw.colour_maps import deviation_of
 from plisse.draw.preview import write_preview
 from plisse.errors import PlisseError
 from plisse.io.exports import BOTH, FLAT, FOLDED, export
@@ -40,6 +41,19 @@ def _report(result: Result, title: str, path: Path) -> None:
     path.write_text(report_json(result.report), encoding="utf-8")
 
 
+def _page(result: Result, title: str, path: Path) -> None:
+    from plisse.io.page import report_page
+
+    page = report_page(required(result), result.report, title=title, deviation=deviation_of(result))
+    path.write_text(page, encoding="utf-8")
+
+
+def _picture(result: Result, title: str, path: Path) -> None:
+    from plisse.draw.picture import write_picture
+
+    write_picture(required(result), path)
+
+
 def _preview(result: Result, title: str, path: Path) -> None:
     required(result)
     write_preview(result, path, title=title)
@@ -68,6 +82,8 @@ KINDS: dict[str, tuple[str, Write]] = {
     "pieces nested on sheets, PDF": ("-pieces.pdf", _sheets),
     "pieces nested on sheets, DXF": ("-pieces.dxf", _sheets),
     "motion, GLB": ("-motion.glb", _motion),
-    "picture, PNG": (".png", _preview),
+    "picture, PNG": (".png", _picture),
+    "picture with the sheet, PNG": ("-preview.png", _preview),
     "report, JSON": ("-report.json", _report),
+    "report page, HTML": ("-report.html", _page),
 }

@@ -25,7 +25,7 @@ APART, SMALLEST = 0.12, 0.72
 FIELD_OF_VIEW = np.radians(30)
 DIRECTION = np.array([-0.5, 0.6, 0.62])  # right, up, towards the viewer
 SUNLIGHT, SKYLIGHT, GROUND = (255, 246, 232), (255, 255, 255), (196, 178, 160)
-SUN, SKY = 2.3, 1.9
+SUN, SKY = 6.5, 2.6
 
 
 @dataclass

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Tab"]
 
-REST, LONGER = 0.15, 1.0  # seconds without a change before a full answer, and before what takes longer, is asked for
+REST, LONGER = 0.08, 1.0  # seconds without a change before a full answer, and before what takes longer, is asked for
 
 
 class Tab:
