@@ -15,7 +15,8 @@ from plisse.result import Result
 from plisse.solve.closed_form import closed_form
 from plisse.solve.marching import marched_design
 from plisse.stopwatch import Stopwatch
-from plisse.transform.arrangement import Arrangement, arranged, strips_along_creases, strips_along_rows
+from plisse.structure.pleated import PleatedStructure
+from plisse.transform.arrangement import Arrangement, arranged, strips_along_creases, strips_along_rows, surface_of
 from plisse.transform.strip_lanes import lanes_on_surface
 from plisse.transform.strip_solids import strip_solid
 
@@ -31,7 +32,7 @@ def arranged_strips(recipe: Design | SurfaceDesign, watch: Stopwatch) -> Result:
         if isinstance(recipe, SurfaceDesign):
             found, mesh = _over_surface(recipe, recipe.strips)
         else:
-            found = _along_curves(recipe, recipe.strips)
+            found, mesh = _along_curves(recipe, recipe.strips)
         if recipe.strips.thickness is not None:
             for strip in found.strips:
                 strip_solid(strip, recipe.strips.thickness)
@@ -53,13 +54,19 @@ def _over_surface(recipe: SurfaceDesign, strips: Strips) -> tuple[Arrangement, R
     return arranged(lanes, strips.width, strips.side), mesh
 
 
-def _along_curves(recipe: Design, strips: Strips) -> Arrangement:
+def _along_curves(recipe: Design, strips: Strips) -> tuple[Arrangement, ReferenceMesh | None]:
+    """Strips, and the structure whose creases they follow where there is one."""
     if recipe.closed_form is not None:
-        return strips_along_creases(closed_form(recipe.closed_form), strips.width, side=strips.side)
+        return _along_creases(closed_form(recipe.closed_form), strips)
     assert recipe.curve is not None
     if recipe.march is not None:
-        return strips_along_creases(marched_design(recipe.curve, recipe.march).structure, strips.width, side=strips.side)
+        return _along_creases(marched_design(recipe.curve, recipe.march).structure, strips)
     assert recipe.pattern is not None
     pattern = guiding(recipe.curve, recipe.pattern).pattern
     pattern = pattern.resampled(strips.samples + (recipe.is_closed and strips.samples % 2 == 0))
-    return strips_along_rows(pattern.curves, pattern.binormals, strips.width, side=strips.side, closed=recipe.is_closed)
+    rows = strips_along_rows(pattern.curves, pattern.binormals, strips.width, side=strips.side, closed=recipe.is_closed)
+    return rows, None
+
+
+def _along_creases(structure: PleatedStructure, strips: Strips) -> tuple[Arrangement, ReferenceMesh]:
+    return strips_along_creases(structure, strips.width, side=strips.side), surface_of(structure)

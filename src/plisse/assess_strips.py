@@ -17,7 +17,8 @@ __all__ = ["assess_strips"]
 def assess_strips(arrangement: Arrangement, units: str = "mm") -> Report:
     """Report on rectifying strips; `angle_defect` is by how much unfolded curves turn, `strips` the cutting list.
 
-    Status is exact where planarity, straightness and isometry are within 1e-9. Reasons and warnings name strips.
+    Status is exact where planarity, straightness and isometry are within 1e-9 and no strip
+    was left out or lost more than half of its length. Reasons and warnings name strips.
     """
     structure = arrangement.structure
     topology, flat = structure.topology, structure.development
@@ -29,6 +30,7 @@ def assess_strips(arrangement: Arrangement, units: str = "mm") -> Report:
         ("faces of strips are not planar", float(planarity.max())), ("curves do not unfold straight: they turn",
                                                                      float(turns.max())),
         ("flat strips differ from those in space", isometry)) if not value <= EXACT]
+    reasons += arrangement.lost
     width, height = (MILLIMETRES[units] * np.ptp(flat, axis=0)).tolist()
     return Report(
         status="approximate" if reasons else "exact", reasons=reasons, vertices=topology.vertex_count,

@@ -17,14 +17,12 @@ from plisse.geometry.jets import JetSurface
 from plisse.geometry.mesh import ReferenceMesh, grid_mesh
 from plisse.geometry.parametric import ParametricSurface
 from plisse.geometry.surface import Surface as Reference
-from plisse.geometry.vectors import dot
 from plisse.io.meshes import read_mesh
 from plisse.layout.coverage import AreaSamples, covered
 from plisse.layout.positions import upright_amplitude
 from plisse.layout.rows import ChartedSurface
-from plisse.measure.inclination import crease_inclinations
+from plisse.measure.inclination import crease_inclinations, overhanging
 from plisse.measure.mid_surface import MidSurfaceDeviation, mid_surface_deviation
-from plisse.measure.planarity import face_normals
 from plisse.measure.regularity import OPENING_RANGE
 from plisse.recipe import Surface, SurfaceDesign, SurfacePattern
 from plisse.result import Deviation, Interval
@@ -192,8 +190,7 @@ def overhang_notes(structure: PleatedStructure, surface: Reference, pattern: Sur
     assert pattern.width is not None
     quads = structure.topology.quads
     below = surface.project(structure.vertices[quads].mean(axis=1)).normals
-    facing = dot(face_normals(structure.topology, structure.vertices), below)
-    share = float(np.mean(facing * np.sign(facing.sum()) < 0))
+    share = overhanging(structure.topology, structure.vertices, below)
     if share == 0:
         return []
     limit = upright_amplitude(float(np.radians(pattern.theta)), pattern.width)

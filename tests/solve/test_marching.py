@@ -159,7 +159,7 @@ def test_contradictions_are_one_sentence(section, message):
 @pytest.mark.parametrize("design, message", [
     ({"march": {"creases": 5, "distance": 4}}, "curve is missing"),
     ({"curve": ARC, "march": {"creases": 5, "distance": 4}, "pattern": {"creases": 5, "width": 3, "amplitude": 2}},
-     "either pattern or march"),
+     "take no .pattern."),
     ({"closed_form": {"kind": "miura"}, "march": {"creases": 5, "distance": 4}}, "has both"),
     ({"curve": ARC | {"angle": 360, "closed": True}, "march": {"creases": 5, "distance": 4, "turn": 3}}, "do not close"),
 ])

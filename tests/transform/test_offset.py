@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from plisse.assess import assess
-from plisse.errors import Infeasible, InvalidDesign, InvalidStructure
+from plisse.errors import InvalidDesign, InvalidStructure
 from plisse.structure.exact import alternating_cones, conic_creases, conical_vertex, marched, miura
 from plisse.structure.grid import grid
 from plisse.structure.pleated import PleatedStructure
@@ -128,9 +128,9 @@ def test_structures_that_are_not_principal_are_refused_with_vertex_and_defect():
         marched().offset(0.1)
 
 
-def test_what_is_folded_flat_touches_no_cone():
+def test_what_is_folded_flat_has_no_offset():
     folded = conical_vertex().flex(200).structures[0]
-    with pytest.raises(Infeasible, match="touch no common cone"):
+    with pytest.raises(InvalidStructure, match="folded flat"):
         folded.offset(0.01)
 
 

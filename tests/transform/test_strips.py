@@ -212,7 +212,7 @@ def test_strips_are_numbered_like_their_curves_and_lie_apart_on_the_sheet():
     straight = Lane(np.outer(np.arange(30.0), [1, 0, 0]))
     found = arranged([Lane(helix()), straight, Lane(wave(60, 1, 1))], 2.0)
     assert found.numbers == (1, 3)
-    assert "strip 2 was left out" in found.notes[0]
+    assert "strip 2 was left out" in found.lost[0]
     structure = found.structure
     assert structure.topology.components == 2
     first = structure.topology.vertex_count - found.strips[1].structure.topology.vertex_count

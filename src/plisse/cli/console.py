@@ -98,8 +98,10 @@ def _measures(report: Report) -> list[tuple[str, str]]:
         rows.append(("edge scales", f"{report.edge_scales.min:.3g} to {report.edge_scales.max:.3g}"))
     angles = [entry.inclination_deg for entry in report.strips if entry.inclination_deg is not None]
     if angles:
-        rows.append(("strips to the surface", f"{min(angle.min for angle in angles):.2f}° to "
-                                              f"{max(angle.max for angle in angles):.2f}°"))
+        from plisse.draw.strips import degrees_text
+
+        low, high = min(angle.min for angle in angles), max(angle.max for angle in angles)
+        rows.append(("strips to the surface", degrees_text(low, high, 2)))
     return rows
 
 

@@ -36,7 +36,8 @@ def layout(
     output
         Directory for candidates.png and layout.toml; the file's name with -layout if left out.
     count
-        How many layouts to try; the search ends earlier where one covers everything.
+        How many layouts to try first; the best are then solved again in other ways, and listed as well. The search ends
+        earlier where one covers everything.
     quiet
         Print nothing.
     """
@@ -64,7 +65,7 @@ def layout(
     chosen = found.candidates.index(found.best)
     with written_together(directory, owned=FILES) as stage:
         write_candidates(found.candidates, chosen, mesh, surface, stage / "candidates.png", title=Path(file).name)
-        text = design_text(recipe, found.best, surface, directory, count)
+        text = design_text(recipe, found.best, surface, directory)
         (stage / "layout.toml").write_text(text, encoding="utf-8", newline="\n")
     if not quiet:
         _show(found, chosen, directory)
@@ -72,7 +73,7 @@ def layout(
 
 
 def design_text(recipe: SurfaceDesign, candidate: Candidate, surface: GraphSurface | ParametricSurface,
-                directory: Path, count: int) -> str:
+                directory: Path) -> str:
     """The design of one candidate as TOML, with the mesh file as seen from `directory`."""
     from plisse.solve.candidate import centre_of
 
@@ -85,10 +86,10 @@ def design_text(recipe: SurfaceDesign, candidate: Candidate, surface: GraphSurfa
         lines += [f"radius = {_quoted(section.radius)}", f"x = {list(section.x)}"]
     else:
         lines += [f"height = {_quoted(section.height or '')}", f"x = {list(section.x)}", f"y = {list(section.y)}"]
-    centre = section.centre if section.centre is not None else centre_of(candidate, surface, count)
+    centre = section.centre if section.centre is not None else centre_of(candidate, surface)
     if centre is not None:
         lines.append(f"centre = {[float(value) for value in centre]}  # rows run around this point")
-    lines.append(f"overhang = {'true' if section.overhang else 'false'}  # may pleats lean by more than 45 degrees?")
+    lines.append(f"overhang = {'true' if section.overhang else 'false'}  # false: upright pleats are preferred, and creases open by 15 degrees")
     lines += [f"side = \"{section.side}\""] if section.side != "below" else []
     lines += ["boundary = true"] if section.boundary else []
     if candidate.seams or section.seams is not None:

@@ -84,6 +84,7 @@ def parallel(
         raise PlisseError(f"{target.name} is neither a .fold nor an .obj file; give one of these")
     if target.exists() and structure.exists() and target.samefile(structure):
         raise PlisseError(f"{target} is the structure itself; choose another file with -o")
+    _refuse_idle(refine_fold, rounds, fraction, at, least_scale, bool(move) or handles is not None or near is not None)
     moves = [parse_move(text) for text in move] + ([] if handles is None else read_handles(handles))
     recipe = _recipe({"lengths": parse_factors(lengths, "--lengths"), "widths": parse_factors(widths, "--widths"),
                       "growth": growth, "moves": moves or None, "least_scale": least_scale, "fraction": fraction, "at": at,
@@ -91,6 +92,21 @@ def parallel(
     model = read_model(structure)
     family = _family(model, recipe, near, open_)
     return _finish(model, family, target, json, quiet)
+
+
+def _refuse_idle(refine_fold: tuple[str, ...], rounds: int, fraction: float, at: float | None, least_scale: float,
+                 nearest: bool) -> None:
+    """Nothing; raises InvalidDesign for options without the one that they belong to."""
+    from plisse.errors import InvalidDesign
+    from plisse.recipe import Parallel
+
+    usual = Parallel()
+    given = {"--rounds": rounds != usual.rounds, "--fraction": fraction != usual.fraction, "--at": at is not None}
+    if not refine_fold and any(given.values()):
+        name = next(name for name, different in given.items() if different)
+        raise InvalidDesign(f"{name} is for folds replaced by three; give --refine-fold too, or leave it out")
+    if least_scale != usual.least_scale and not nearest:
+        raise InvalidDesign("--least-scale is for nearest structures; give --move, --handles or --near too, or leave it out")
 
 
 def _recipe(data: dict) -> Parallel:

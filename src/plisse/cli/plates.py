@@ -64,6 +64,8 @@ def plates(
     from plisse.transform.hinged_range import hinged_range
 
     target = Path("plates") if output is None else output
+    if kerf and material is None:
+        raise PlisseError("--kerf is for plates laid out on material; give --material, for example 600x300, or leave it out")
     if target.suffix and not target.is_dir():
         require_format(target)
     if target.exists() and structure.exists() and target.samefile(structure):

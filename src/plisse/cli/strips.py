@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from cyclopts import Parameter
 
 if TYPE_CHECKING:
+    from plisse.io.model import Model
     from plisse.recipe import Design, Strips, SurfaceDesign
     from plisse.result import Result
     from plisse.transform.arrangement import Arrangement
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["strips"]
 
 CURVES = (".csv", ".txt", ".npy")
+STRUCTURES = (".fold", ".obj", ".3dm", ".json")
 
 
 def strips(
@@ -65,20 +67,32 @@ def strips(
     path = Path(source)
     directory = Path(f"{path.stem}-strips") if output is None else output
     require_writable(directory, FILES)
-    if path.suffix.lower() in (*CURVES, ".fold", ".obj", ".3dm", ".json"):
-        result = _from_file(path, _wanted(width, thickness, side), crease, closed)
+    _refuse_idle(path, crease, closed)
+    if path.suffix.lower() in (*CURVES, *STRUCTURES):
+        result, title = _from_file(path, _wanted(width, thickness, side), crease, closed)
     else:
+        title = path.stem
         result = _from_design(source, width, thickness, side)
     if result.structure is None:
         from plisse.errors import Infeasible
 
         raise Infeasible(result.report.reasons[0])
-    report = write_files(result, directory, title=path.stem)
+    report = write_files(result, directory, title=title)
     if json:
         print(report_json(report), end="")
     elif not quiet:
-        summarise(report, directory, title=path.stem)
+        summarise(report, directory, title=title)
     return 0 if report.status == "exact" else 3
+
+
+def _refuse_idle(path: Path, creases: tuple[int, ...], closed: bool) -> None:
+    """Nothing; raises InvalidDesign for options that mean nothing for a source of this kind."""
+    from plisse.errors import InvalidDesign
+
+    if closed and path.suffix.lower() not in CURVES:
+        raise InvalidDesign(f"--closed is for curves in files ({', '.join(CURVES)}), and {path.name} is none; leave it out")
+    if creases and path.suffix.lower() not in STRUCTURES:
+        raise InvalidDesign(f"--crease chooses creases of a structure in a file, and {path.name} is none; leave it out")
 
 
 def _wanted(width: float | None, thickness: float | None, side: str | None) -> Strips:
@@ -102,31 +116,35 @@ def _wanted(width: float | None, thickness: float | None, side: str | None) -> S
     return wanted
 
 
-def _from_file(path: Path, wanted: Strips, creases: tuple[int, ...], closed: bool) -> Result:
-    """Strips along the creases of a structure, or along the curve in a file."""
+def _from_file(path: Path, wanted: Strips, creases: tuple[int, ...], closed: bool) -> tuple[Result, str]:
+    """Strips along the creases of a structure, or along the curve in a file, and their title."""
     from plisse.assess_strips import assess_strips
     from plisse.recipe import Design
     from plisse.result import Result
+    from plisse.transform.arrangement import surface_of
     from plisse.transform.strip_solids import strip_solid
 
-    found, units = _arrangement(path, wanted, creases, closed)
+    found, model = _arrangement(path, wanted, creases, closed)
+    units = "mm" if model is None else model.units
     if wanted.thickness is not None:
         for strip in found.strips:
             strip_solid(strip, wanted.thickness)
     design = Design(strips=wanted, units=units)  # type: ignore[arg-type]
-    return Result(design, assess_strips(found, units), structure=found.structure, arrangement=found)
+    surface = None if model is None else surface_of(model.structure)
+    result = Result(design, assess_strips(found, units), structure=found.structure, arrangement=found, surface=surface)
+    return result, path.stem if model is None else model.title
 
 
-def _arrangement(path: Path, wanted: Strips, creases: tuple[int, ...], closed: bool) -> tuple[Arrangement, str]:
+def _arrangement(path: Path, wanted: Strips, creases: tuple[int, ...], closed: bool) -> tuple[Arrangement, Model | None]:
     from plisse.io.polylines import read_polyline
     from plisse.io.structures import read_model
     from plisse.transform.arrangement import Lane, arranged, strips_along_creases
 
     if path.suffix.lower() in CURVES:
-        return arranged([Lane(read_polyline(path), closed=closed)], wanted.width, wanted.side), "mm"
+        return arranged([Lane(read_polyline(path), closed=closed)], wanted.width, wanted.side), None
     model = read_model(path)
     chosen = [number - 1 for number in creases] or None
-    return strips_along_creases(model.structure, wanted.width, side=wanted.side, creases=chosen), model.units
+    return strips_along_creases(model.structure, wanted.width, side=wanted.side, creases=chosen), model
 
 
 def _from_design(name: str, width: float | None, thickness: float | None, side: str | None) -> Result:

@@ -1,5 +1,6 @@
 """Where to look from: an orthographic view in which the shape and its pleats are well seen."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,10 +47,14 @@ class Camera:
         return cls(np.stack([np.cross(up, towards), up, towards]), upright)
 
 
-def best_view(structure: PleatedStructure) -> Camera:
-    """The camera, out of some seventy above and below the main plane, that shows most: see `_score`."""
-    samples = _samples(structure)
-    return max(_candidates(structure.vertices), key=lambda camera: _score(camera, *samples))
+def best_view(structure: PleatedStructure, others: Sequence[PleatedStructure] = ()) -> Camera:
+    """The camera, out of some hundred above and below the main plane, that shows most: see `_score`.
+
+    With `others` it is the one that shows the worst seen of all as well as can be, measured by their own best views.
+    """
+    cameras = _candidates(structure.vertices)
+    scores = np.array([[_score(camera, *samples) for camera in cameras] for samples in map(_samples, (structure, *others))])
+    return cameras[int(np.argmax((scores / scores.max(axis=1, keepdims=True)).min(axis=0)))]
 
 
 def _samples(structure: PleatedStructure) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

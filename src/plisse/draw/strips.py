@@ -18,7 +18,7 @@ from plisse.recipe import MILLIMETRES
 from plisse.transform.arrangement import Arrangement
 from plisse.transform.strips import RectifyingStrip
 
-__all__ = ["cutting_drawing", "write_strips_picture"]
+__all__ = ["cutting_drawing", "degrees_text", "write_strips_picture"]
 
 SIZE = (2000, 1250)
 MARGIN, CAPTION_BAND, RIM = 80, 125, 6
@@ -72,11 +72,17 @@ def cutting_drawing(arrangement: Arrangement, units: str = "mm", *, title: str =
     return replace(pattern, layers=(*pattern.layers, Layer("text", (), tuple(texts))))
 
 
+def degrees_text(low: float, high: float, digits: int) -> str:
+    """A range of angles in degrees as text, one number where both ends read the same."""
+    ends = dict.fromkeys(f"{value:.{digits}f}°" for value in (low, high))
+    return " to ".join(ends)
+
+
 def _facts(arrangement: Arrangement, units: str) -> list[str]:
     angles = np.degrees(np.concatenate([part for part in arrangement.inclinations if part is not None] or [np.empty(0)]))
     facts = [f"{len(arrangement.strips)} strips that unfold straight",
              f"{max(strip.width for strip in arrangement.strips):.3g} {units} wide"]
-    return facts + ([f"at {angles.min():.1f}° to {angles.max():.1f}° to the surface"] if len(angles) else [])
+    return facts + ([f"at {degrees_text(float(angles.min()), float(angles.max()), 1)} to the surface"] if len(angles) else [])
 
 
 def _bodies(arrangement: Arrangement, surface: ReferenceMesh | None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

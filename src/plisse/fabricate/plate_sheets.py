@@ -45,17 +45,21 @@ def plate_sheets(plates: Plates, *, material: tuple[float, float] = (600.0, 300.
     from shapely import MultiPoint, get_coordinates
 
     require_lengths(material, kerf=kerf, margin=margin, spacing=spacing)
+    room = material[0] - 2 * margin, material[1] - 2 * margin - FOOTER
+    if min(room) <= 0:
+        raise Infeasible(f"material of {material[0]:g} × {material[1]:g} mm has no room inside margins of {margin:g} mm (and "
+                         f"{FOOTER:g} mm for the number of the sheet); take larger material")
+    slim = int(np.argmin(plates.widths))
+    if kerf >= plates.widths[slim] * MILLIMETRES[units]:
+        raise Infeasible(f"a kerf of {kerf:g} mm is wider than plate {slim + 1}; give the width of the cut")
     lower, upper = (outline * MILLIMETRES[units] for outline in plates.flat)
     face = plates.structure.topology.corners.face
     cuts = np.flatnonzero(np.diff(face)) + 1
     parts = [np.split(outline, cuts) for outline in (lower, upper)]
     hulls = [MultiPoint(np.concatenate(pair)).convex_hull.buffer(kerf / 2, join_style="mitre")
              for pair in zip(*parts, strict=True)]
-    slim = int(np.argmin(plates.widths))
-    if kerf >= plates.widths[slim] * MILLIMETRES[units]:
-        raise Infeasible(f"a kerf of {kerf:g} mm is wider than plate {slim + 1}; give the width of the cut")
     outlines = tuple(get_coordinates(hull.exterior)[:-1] for hull in hulls)
-    bed = Bed((margin, margin + FOOTER), material[0] - 2 * margin, material[1] - 2 * margin - FOOTER, spacing)
+    bed = Bed((margin, margin + FOOTER), *room, spacing)
     return PlateSheets(outlines, tuple(parts[1]), tuple(rows(outlines, bed)), material, margin)
 
 

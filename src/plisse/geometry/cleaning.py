@@ -46,12 +46,12 @@ def _refuse_bad_numbers(vertices: np.ndarray, faces: np.ndarray) -> None:
         raise InvalidMesh(f"the mesh has {len(faces):,} triangles, more than the {MAX_FACES:,} that plisse takes; "
                           "decimate it first")
     if faces.min() < 0 or faces.max() >= len(vertices):
-        raise InvalidMesh(f"face {int(np.argmax(((faces < 0) | (faces >= len(vertices))).any(axis=1)))} refers to a "
+        raise InvalidMesh(f"face {int(np.argmax(((faces < 0) | (faces >= len(vertices))).any(axis=1))) + 1} refers to a "
                           f"vertex that does not exist; the mesh has {counted(len(vertices), 'vertex', 'vertices')}")
     bad = ~np.isfinite(vertices).all(axis=1)
     bad[np.setdiff1d(np.arange(len(vertices)), faces)] = False
     if bad.any():
-        raise InvalidMesh(f"vertex {int(np.argmax(bad))} of the mesh has a coordinate that is not a finite number")
+        raise InvalidMesh(f"vertex {int(np.argmax(bad)) + 1} of the mesh has a coordinate that is not a finite number")
     used = vertices[np.unique(faces)]
     largest, diagonal = float(np.abs(used).max()), float(norm(np.ptp(used / max(np.abs(used).max(), 1e-300), axis=0)))
     diagonal *= largest

@@ -12,6 +12,7 @@ from plisse.errors import InvalidDesign
 __all__ = ["Jet", "checked_formula", "height_expression", "jet_of"]
 
 MAX_LENGTH, MAX_NODES, MAX_DEPTH = 1000, 300, 60
+LARGEST = 1e12
 ALLOWED = "numbers, {names}, pi, + - * / **, {functions} and {last}"
 
 
@@ -171,6 +172,9 @@ def _check(tree: ast.expr, text: str, names: tuple[str, ...], what: str, functio
             hint = "; powers are written **" if isinstance(getattr(node, "op", None), ast.BitXor) else ""
             part = ast.get_source_segment(text.strip(), node) or type(node).__name__
             allowed = ALLOWED.format(names=", ".join(names), functions=", ".join(functions[:-1]), last=functions[-1])
+            if isinstance(node, ast.Constant) and type(node.value) in (int, float):
+                raise InvalidDesign(f"{what} {_short(text)} contains {_short(part)}, a number out of range; numbers go up to "
+                                    f"{LARGEST:.0e}")
             raise InvalidDesign(f"{what} {_short(text)} contains {_short(part)}; allowed are {allowed}{hint}")
         stack += [(child, depth + 1) for child in children]
 
@@ -179,7 +183,7 @@ def _children(node: ast.expr, names: tuple[str, ...], functions: tuple[str, ...]
     """What an allowed node is made of, None for one that is not allowed."""
     match node:
         case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
-            return [] if abs(value) <= 1e12 else None
+            return [] if abs(value) <= LARGEST else None
         case ast.Name(id=name) if name == "pi" or name in names:
             return []
         case ast.UnaryOp(op=ast.UAdd() | ast.USub(), operand=operand):

@@ -63,8 +63,6 @@ def check_design(design: Design) -> Design:
 
 def _check_marched(design: Design, march: March) -> Design:
     """The same design; raises InvalidDesign where curve and march do not make one."""
-    if design.pattern is not None:
-        raise InvalidDesign("a design has either pattern or march, but this one has both; remove one")
     if design.curve is None:
         raise InvalidDesign("curve is missing; add a [curve] section from which the creases march, as `plisse gallery "
                             "march-shell` shows")

@@ -47,8 +47,11 @@ def design_from_dict(data: dict, base: str | Path = ".") -> Design | SurfaceDesi
 
     A `surface` section makes it the design of a reconstruction, one with a `kind` that of pleats along asymptotic curves.
     """
-    data = _plain(data)
+    data = _with_curve_kind(_plain(data))
     refuse_non_finite(data)
+    if "march" in data and "pattern" in data:
+        raise InvalidDesign("designs with [march] take no [pattern]: creases are marched from the curve by the numbers of "
+                            "[march]; remove one of both sections")
     try:
         if is_asymptotic(data):
             return _with_its_mesh(check_asymptotic_design(msgspec.convert(data, AsymptoticDesign)), Path(base))
@@ -79,6 +82,14 @@ def _assign(data: dict, keys: list[str], value: object) -> None:
         if not isinstance(data, dict):
             raise InvalidDesign(f"--set {'.'.join(keys)} goes through {key}, which is a value and not a section")
     data[keys[-1]] = value
+
+
+def _with_curve_kind(data: dict) -> dict:
+    """The same design; a curve that names a file and no kind is one of measured points."""
+    curve = data.get("curve")
+    if not isinstance(curve, dict) or "kind" in curve or "file" not in curve:
+        return data
+    return {**data, "curve": {"kind": "points", **curve}}
 
 
 def _plain(value):

@@ -36,6 +36,9 @@ SURFACE_SECTIONS = {"": SurfaceDesign, "surface": Surface, "pattern": SurfacePat
 ASYMPTOTIC_SECTIONS = {"": AsymptoticDesign, "surface": AsymptoticSurface, "pattern": AsymptoticPattern}
 TABLES = {"surface.weierstrass": WeierstrassData, "surface.guide_section": Section, "surface.handles": Pull,
           "parallel.moves": Move}
+OUT_OF_RANGE = ("invalid enum value", "expected `float` ", "expected `int` ")
+WORDS = {"float": "a number", "int": "a whole number", "str": "text", "bool": "true or false", "array": "a list",
+         "object": "a table"}
 KINDS = {"curve": Curve, "closed_form": ClosedForm}
 
 
@@ -73,6 +76,9 @@ def sentence(message: str, data: dict) -> str:
         return f"{key} is missing; add it" + (f" ({hint})" if hint else "")
     hint = _hint(path, data)
     found = _lookup(data, path)
+    if hint and what.startswith(OUT_OF_RANGE) and not isinstance(found, dict | list):
+        return f"{path} is {found!r}; give {hint}"
+    what = re.sub(r"`(\w+)`", lambda match: WORDS.get(match[1], match[0]), what)
     shown = "" if isinstance(found, dict | list) or found is None else f", found {found!r}"
     return f"{path or 'the design'}: {what}{shown}" + (f"; give {hint}" if hint else "")
 

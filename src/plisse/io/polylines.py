@@ -33,7 +33,7 @@ def read_polyline(path: str | Path, least: int = 3) -> np.ndarray:
     if points.ndim != 2 or points.shape[1] != 3 or len(points) < least:
         raise InvalidDesign(f"{path.name} holds an array of shape {points.shape}; give at least {least} rows of x, y, z")
     if not np.isfinite(points).all():
-        raise InvalidDesign(f"row {int(np.argmin(np.isfinite(points).all(axis=1)))} of {path.name} is not finite")
+        raise InvalidDesign(f"point {int(np.argmin(np.isfinite(points).all(axis=1))) + 1} of {path.name} is not finite")
     return points.astype(float)
 
 
@@ -55,10 +55,14 @@ def _read_rows(path: Path) -> np.ndarray:
         if not fields:
             continue
         try:
-            rows.append([float(field) for field in fields])
+            row = [float(field) for field in fields]
         except ValueError:
+            row = []
             if rows:
                 raise ValueError(f"line {number} is {line.strip()[:40]!r}") from None
+        if not np.isfinite(row).all():
+            raise ValueError(f"line {number} is {line.strip()[:40]!r}, which is not finite")
+        rows += [row] if row else []
     if len({len(row) for row in rows}) > 1:
         raise ValueError("its rows have different lengths")
     return np.array(rows, dtype=float)

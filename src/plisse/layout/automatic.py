@@ -43,13 +43,17 @@ class Sizes:
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """A net over a surface, its zigzag (n, m, 3), and the mask (n−1, m or m−1) of quads that meet the surface."""
+    """A net over a surface, its zigzag (n, m, 3), and the mask (n−1, m or m−1) of quads that meet the surface.
+
+    Rows run around `centre` (2,) in the chart where there is one.
+    """
 
     sizes: Sizes
     net: Net
     zigzag: np.ndarray
     mask: np.ndarray
     label: str = ""
+    centre: np.ndarray | None = None
 
 
 def sensible_width(mesh: ReferenceMesh, surface: ChartedSurface) -> float:

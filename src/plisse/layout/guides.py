@@ -67,7 +67,7 @@ def boundary_guide(surface: Surface, mesh: ReferenceMesh, loop: int = 0) -> Guid
     """A boundary loop of the mesh (0: the longest), the surface on its left."""
     loops = mesh.boundary_loops
     if loop >= len(loops):
-        raise InvalidDesign(f"the surface has {len(loops)} boundary loops, so there is no loop {loop} to guide creases")
+        raise InvalidDesign(f"the surface has {len(loops)} boundary loops, so there is no loop {loop + 1} to guide creases")
     return Guide(_onto(surface, mesh.vertices[loops[loop]], True).points, True, one_sided=True)
 
 

@@ -3,9 +3,16 @@
 import numpy as np
 
 from plisse.geometry.vectors import dot, unit
+from plisse.measure.planarity import face_normals
 from plisse.structure.topology import Topology
 
-__all__ = ["crease_inclinations"]
+__all__ = ["crease_inclinations", "overhanging"]
+
+
+def overhanging(topology: Topology, vertices: np.ndarray, normals: np.ndarray) -> float:
+    """Fraction of the faces that lean beyond the normals (F, 3) of the reference under them, so that they hide others."""
+    facing = dot(face_normals(topology, vertices), normals)
+    return float(np.mean(facing * np.sign(facing.sum()) < 0))
 
 
 def crease_inclinations(topology: Topology, vertices: np.ndarray, normals: np.ndarray,

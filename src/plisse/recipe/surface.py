@@ -46,8 +46,9 @@ class Surface(Strict, kw_only=True, frozen=True):
     At most `seams` cut a whole surface apart along rulings where one sheet does not reach; left out, it stays in one
     piece unless seams cover notably more.
     `handles`, or an `edited_file` with the same faces, change the surface after it was laid out and solved; the
-    structure follows and is solved again (Fig. 23). Without `overhang` inclinations stay below 45° when they are fitted
-    and creases open by 15° at least; where faces overhang all the same the report says how many.
+    structure follows and is solved again (Fig. 23). Without `overhang` fitted pleats open by 15° at least and upright ones
+    are preferred; the report says how many faces overhang all the same. Along guides `overhang = false` refuses sizes
+    that would.
     """
 
     file: str | None = None
@@ -115,5 +116,9 @@ class SurfaceDesign(Strict, kw_only=True, frozen=True):
     units: Units = "mm"
 
     def to_dict(self) -> dict:
-        """Plain dictionaries and lists, as TOML or JSON would hold them; keys that are not set are left out."""
-        return without_none(msgspec.to_builtins(self))
+        """Plain dictionaries and lists, as TOML or JSON would hold them; keys that are not set or say nothing are left out."""
+        data = without_none(msgspec.to_builtins(self))
+        for name in ("x", "y") if self.surface.height is None else ():
+            if name == "y" or self.surface.radius is None:
+                del data["surface"][name]
+        return data

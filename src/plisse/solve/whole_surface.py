@@ -11,7 +11,6 @@ import numpy as np
 from plisse.errors import Infeasible
 from plisse.geometry.mesh import ReferenceMesh
 from plisse.geometry.parametric import ParametricSurface
-from plisse.geometry.vectors import dot
 from plisse.layout.automatic import (
     OVERHANG_LIMIT,
     UPRIGHT_LIMIT,
@@ -26,12 +25,11 @@ from plisse.layout.coverage import AreaSamples, covered
 from plisse.layout.rows import ChartedSurface
 from plisse.layout.straight import Straight, straight_and_round
 from plisse.measure.folds import crease_opening_angles
-from plisse.measure.inclination import crease_inclinations
+from plisse.measure.inclination import crease_inclinations, overhanging
 from plisse.measure.mid_surface import MidSurfaceDeviation, mid_surface_deviation
-from plisse.measure.planarity import face_normals
 from plisse.measure.regularity import OPENING_RANGE
 from plisse.measure.sectors import sector_angles
-from plisse.solve.candidate import FULL, Candidate
+from plisse.solve.candidate import FULL, Candidate, holes_of
 from plisse.solve.masked import Trim, solve_masked
 from plisse.solve.seams import seam_defects
 from plisse.solve.search import Jobs, best_of, stages
@@ -82,6 +80,7 @@ class _Task:
     surface: ChartedSurface
     samples: AreaSamples
     least_opening: float
+    upright: bool
 
     @property
     def is_annulus(self) -> bool:
@@ -98,8 +97,11 @@ class _Task:
             return lay_out(centre.rows(self.surface, sizes.width, inside=sizes.inside), self.samples, self.surface, sizes,
                            centre.label(self.surface))
         rows = starting_rows(self.mesh, self.surface, centre, sizes.width, parallel=not sizes.inside)
-        label = "rows between the boundaries" if centre is None else f"centre ({centre[0]:.4g}, {centre[1]:.4g})"
-        return lay_out(rows, self.samples, self.surface, sizes, label)
+        if centre is None:
+            return lay_out(rows, self.samples, self.surface, sizes, "rows between the boundaries")
+        x, y, z = self.surface.to_space(np.array([[*centre, 0.0]]))[0] + 0.0
+        label = f"centre ({x:.4g}, {y:.4g}, {z:.4g})"
+        return replace(lay_out(rows, self.samples, self.surface, sizes, label), centre=np.asarray(centre))
 
     def solved(self, layout: Layout, trim: Trim, seams: tuple[int, ...] = ()) -> Candidate | None:
         trim = replace(trim, least_opening=self.least_opening)
@@ -108,12 +110,13 @@ class _Task:
         if found is None:
             return None
         topology = found.grid.topology
+        normals = layout.net.normals.reshape(-1, 3)[found.grid.used][topology.quads].sum(axis=1)
         return Candidate(layout, found,
                          covered(self.samples, found.vertices, topology.quads, REACH * layout.sizes.width),
                          mid_surface_deviation(self.surface, found.vertices, topology.quads),
                          float(crease_opening_angles(topology, found.vertices).min(initial=np.pi)),
                          float(np.minimum(angles := sector_angles(topology, found.vertices), np.pi - angles).min()),
-                         max(1 - topology.euler_characteristic - max(len(self.mesh.boundary_loops) - 1, 0), 0))
+                         holes_of(topology, self.mesh), overhanging(topology, found.vertices, normals), self.upright)
 
 
 def whole_surface(mesh: ReferenceMesh, surface: ChartedSurface, *, width: float | None = None,
@@ -123,8 +126,8 @@ def whole_surface(mesh: ReferenceMesh, surface: ChartedSurface, *, width: float 
     """An exact, regular structure over as much of a surface as can be had.
 
     Lengths are in model units, `theta` (preferred inclination) is in radians. Only layouts around `centre` (3,) are
-    tried where it is given; it may lie anywhere, its chart coordinates count. Without `overhang` layouts keep |θ|
-    below 45° and creases open by 15° at least. The first crease lies `above` the surface or below; with `inside` no row
+    tried where it is given; it may lie anywhere, its chart coordinates count. Without `overhang` creases open by 15° at
+    least and layouts prefer |θ| below 45°, which solving may exceed. The first crease lies `above` the surface or below; with `inside` no row
     reaches beyond its boundary. At most `seams` cut it apart; None leaves it in one piece unless no centre is given
     and seams cover notably more. `progress` hears the stage and how much of it is done. Raises Infeasible where no
     layout has a solution.
@@ -132,7 +135,7 @@ def whole_surface(mesh: ReferenceMesh, surface: ChartedSurface, *, width: float 
     report = progress or (lambda stage, fraction: None)
     width = width or sensible_width(mesh, surface)
     limit, opening = (OVERHANG_LIMIT, OPENING_RANGE[0]) if overhang else (UPRIGHT_LIMIT, FOLDABLE)
-    task = _Task(mesh, surface, AreaSamples.of(mesh.vertices, mesh.triangles), opening)
+    task = _Task(mesh, surface, AreaSamples.of(mesh.vertices, mesh.triangles), opening, not overhang)
     sizes = Sizes(width, amplitude or AMPLITUDE * width, theta or 0.0, limit, 0.0, above=above, inside=inside)
     if centre is not None and isinstance(surface, ParametricSurface) and surface.period is not None:
         raise Infeasible("creases go up a tube or around it, not around a centre; leave out surface.centre")
@@ -147,10 +150,10 @@ def whole_surface(mesh: ReferenceMesh, surface: ChartedSurface, *, width: float 
             candidate = task.solved(layout, trim, columns)
             tried += [candidate] if candidate else []
             if candidate and candidate.is_done:
-                return _finished(task, candidate, tuple(tried))
+                return _finished(candidate, tuple(tried))
     if not tried:
         raise Infeasible("no layout over this surface has a solution; a smaller width or a smoother surface may help")
-    return _finished(task, best_of(tried, seams), tuple(tried))
+    return _finished(best_of(tried, seams), tuple(tried))
 
 
 def _first(task: _Task, sizes: Sizes, centre: np.ndarray | None, count: int) -> Jobs:
@@ -171,23 +174,26 @@ def _first(task: _Task, sizes: Sizes, centre: np.ndarray | None, count: int) -> 
         yield k / len(jobs), task.layout(place, size), SCAN, ()
 
 
-def _finished(task: _Task, best: Candidate, tried: tuple[Candidate, ...]) -> WholeSurface:
+def _finished(best: Candidate, tried: tuple[Candidate, ...]) -> WholeSurface:
     part, net = best.solved.grid, best.layout.net
     vertices = best.solved.vertices
     normals, outward = (field.reshape(-1, 3)[part.used] for field in (net.normals, net.outward))
     inclination = crease_inclinations(part.topology, vertices, normals, outward)
-    facing = dot(face_normals(part.topology, vertices), normals[part.topology.quads].sum(axis=1))
-    overhanging = float(np.mean(facing * np.sign(facing.sum()) < 0))
-    notes = _notes(best, inclination, overhanging)
+    notes = _notes(best, inclination)
     structure = PleatedStructure(part.topology, vertices)
-    return WholeSurface(structure, best.coverage, best.deviation, inclination, part.rows, overhanging, best, tried,
+    return WholeSurface(structure, best.coverage, best.deviation, inclination, part.rows, best.overhanging, best, tried,
                         tuple(notes))
 
 
-def _notes(best: Candidate, inclination: np.ndarray, overhanging: float) -> Iterator[str]:
+def _notes(best: Candidate, inclination: np.ndarray) -> Iterator[str]:
     """Sentences on inclinations, holes and parts left out."""
-    yield (f"fitted inclination, {best.layout.label}: θ runs from {np.degrees(inclination.min()):.0f}° to "
-           f"{np.degrees(inclination.max()):.0f}°, {100 * overhanging:.0f} % of the faces overhang")
+    leaning, sizes = f"{100 * best.overhanging:.0f} % of the faces overhang", best.layout.sizes
+    yield (f"fitted inclination, {best.layout.label}, width {sizes.width:.4g}, amplitude {sizes.amplitude:.4g}: θ runs from "
+           f"{np.degrees(inclination.min()):.0f}° to {np.degrees(inclination.max()):.0f}°"
+           + ("" if best.upright else f", {leaning}"))
+    if best.upright and best.overhanging > 0:
+        yield (f"overhang = false keeps creases open by {np.degrees(FOLDABLE):.0f}° and prefers upright pleats; {leaning} "
+               "all the same")
     if best.holes > 0:
         yield f"the structure has {best.holes} hole{'s' if best.holes > 1 else ''} where no exact pleats were found"
     if best.seams:

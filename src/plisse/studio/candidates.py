@@ -28,11 +28,11 @@ def candidates_of(recipe: SurfaceDesign, count: int, progress: Progress) -> tupl
         picture = Path(directory) / "candidates.png"
         write_candidates(found.candidates, found.candidates.index(found.best), mesh, surface, picture)
         content = picture.read_bytes()
-    return content, [_choice(number, candidate, surface, count) for number, candidate in enumerate(found.candidates, 1)]
+    return content, [_choice(number, candidate, surface) for number, candidate in enumerate(found.candidates, 1)]
 
 
-def _choice(number: int, candidate: Candidate, surface: GraphSurface | ParametricSurface, count: int) -> tuple[str, dict]:
-    sizes, centre = candidate.layout.sizes, centre_of(candidate, surface, count)
+def _choice(number: int, candidate: Candidate, surface: GraphSurface | ParametricSurface) -> tuple[str, dict]:
+    sizes, centre = candidate.layout.sizes, centre_of(candidate, surface)
     words = f"{number}: {100 * candidate.coverage:.1f} % covered"
     changes: dict = {"pattern.width": float(sizes.width), "pattern.amplitude": float(sizes.amplitude)}
     return words, changes if centre is None else {**changes, "surface.centre": centre.tolist()}

@@ -8,16 +8,19 @@ from typing import NamedTuple
 import numpy as np
 
 from plisse.errors import Infeasible, InvalidStructure
+from plisse.geometry.mesh import ReferenceMesh
 from plisse.geometry.polyline import tangents
 from plisse.geometry.vectors import norm, unit
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Topology
+from plisse.structure.triangles import triangulated
 from plisse.transform.refine_fold import inner_creases
 from plisse.transform.strips import RectifyingStrip, rectifying_strip
 
-__all__ = ["Arrangement", "Lane", "arranged", "strips_along_creases", "strips_along_rows"]
+__all__ = ["Arrangement", "Lane", "arranged", "strips_along_creases", "strips_along_rows", "surface_of"]
 
 GAP = 0.4  # of the strip's width between flat strips on the sheet
+SHORTENED = 0.5  # share of its curve below which a strip has lost too much
 
 
 class Lane(NamedTuple):
@@ -36,13 +39,15 @@ class Lane(NamedTuple):
 class Arrangement:
     """Strips, the numbers (from 1) of the curves they belong to, and their inclinations to the surface where there is one.
 
-    `inclinations` are arrays (n − 1,) in radians, 0 lying on the surface; `notes` sentences about what was given up.
+    `inclinations` are arrays (n − 1,) in radians, 0 lying on the surface; `notes` sentences about what was given up, `lost`
+    those about strips that were left out, or shortened to less than half.
     """
 
     strips: tuple[RectifyingStrip, ...]
     numbers: tuple[int, ...]
     inclinations: tuple[np.ndarray | None, ...]
     notes: tuple[str, ...] = ()
+    lost: tuple[str, ...] = ()
 
     @cached_property
     def structure(self) -> PleatedStructure:
@@ -63,20 +68,20 @@ class Arrangement:
 
 def arranged(lanes: Iterable[Lane], width: float, side: str = "both") -> Arrangement:
     """Strips along all lanes for which there is one; raises Infeasible, with the first reason, where there is none."""
-    strips, numbers, inclinations, notes = [], [], [], []
+    strips, numbers, inclinations, notes, lost = [], [], [], [], []
     for number, lane in enumerate(lanes, 1):
         try:
             strip = rectifying_strip(lane.points, width, closed=lane.closed, side=side, reference=lane.reference)
         except Infeasible as error:
-            notes.append(f"strip {number} was left out: {error}")
+            lost.append(f"strip {number} was left out: {error}")
             continue
         strips.append(strip)
         numbers.append(number)
         inclinations.append(None if lane.normals is None else strip.inclination(_between(strip, lane)))
-        notes += [f"strip {number}: {note}" for note in strip.notes]
+        (notes if strip.kept >= SHORTENED else lost).extend(f"strip {number}: {note}" for note in strip.notes)
     if not strips:
-        raise Infeasible(notes[0] if notes else "there is no curve to lay a strip along")
-    return Arrangement(tuple(strips), tuple(numbers), tuple(inclinations), tuple(notes))
+        raise Infeasible(lost[0] if lost else "there is no curve to lay a strip along")
+    return Arrangement(tuple(strips), tuple(numbers), tuple(inclinations), tuple(notes), tuple(lost))
 
 
 def strips_along_creases(structure: PleatedStructure, width: float, *, side: str = "both",
@@ -108,6 +113,12 @@ def strips_along_rows(curves: np.ndarray, binormals: np.ndarray, width: float, *
     normals = [unit(np.cross(tangents(curve, closed), line)) for curve, line in zip(curves, across, strict=True)]
     lanes = [Lane(*fields, closed) for fields in zip(curves, normals, binormals, strict=True)]
     return arranged(lanes, width, side)
+
+
+def surface_of(structure: PleatedStructure) -> ReferenceMesh:
+    """The faces of a structure in triangles, each with corners of its own: what strips along its creases stand on."""
+    corners = structure.vertices[triangulated(structure.topology)[0]].reshape(-1, 3)
+    return ReferenceMesh(corners, np.arange(len(corners)).reshape(-1, 3))
 
 
 def _across(structure: PleatedStructure) -> np.ndarray:

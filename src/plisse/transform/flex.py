@@ -6,7 +6,6 @@ from functools import cached_property
 import numpy as np
 
 from plisse.errors import InvalidDesign, InvalidStructure
-from plisse.measure.folds import fold_angles
 from plisse.solve.cutting import best_cut
 from plisse.solve.flatten import flatten
 from plisse.structure.cut import Cut
@@ -18,8 +17,6 @@ from plisse.transform.mechanism import FLAT_FOLDED, Mechanism
 from plisse.transform.principal import require_principal
 
 __all__ = ["Motion", "flex"]
-
-FLATTEST = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,14 +64,13 @@ def flex(structure: PleatedStructure, percent) -> Motion:
     """The motion of a principal structure at one percent or several, each in [0, 200], every state exact.
 
     Raises InvalidStructure with the vertex and its defect for structures that are not principal: they have no motion
-    that keeps their rulings. Raises InvalidDesign for percents outside the range.
+    that keeps their rulings, and for those that lie flat, which do not say how far edges fold. Raises InvalidDesign for percents outside the range.
     """
     percent = _checked(percent)
     require_principal(structure, "it has no motion that keeps its rulings")
     structure = _developed(structure)
     opened = structure.opened
     assert structure.development is not None
-    _require_folds(opened)
     mechanism = Mechanism(opened.topology, structure.development, opened.vertices)
     return Motion(mechanism, structure.cut, percent, mechanism.states(percent), _cut_place(structure))
 
@@ -98,18 +94,6 @@ def _developed(structure: PleatedStructure) -> PleatedStructure:
     if (pieces := structure.cut.topology.components) > 1:
         raise InvalidStructure(f"the sheet falls into {pieces} pieces, each with a motion of its own; flex them one by one")
     return structure
-
-
-def _require_folds(opened: PleatedStructure) -> None:
-    """Raises InvalidStructure for the flat sheet and the flat-folded state, which do not say how edges fold together."""
-    edges = opened.topology.edges
-    fold = np.abs(fold_angles(opened.topology, opened.vertices)[~edges.is_boundary])
-    if fold.size and fold.max() < FLATTEST:
-        raise InvalidStructure("the structure lies flat, which does not say how far its edges fold when it moves; "
-                               "give a folded state")
-    if fold.size and (np.pi - fold.max()) < FLATTEST:
-        raise InvalidStructure("the structure is folded flat, which does not say how far its edges fold when it moves; "
-                               "give a state between")
 
 
 def _cut_place(structure: PleatedStructure) -> str:

@@ -13,8 +13,12 @@ from scipy.sparse import block_array, coo_array, csc_array, csr_array, diags_arr
 
 from plisse.errors import Infeasible, InvalidStructure
 from plisse.extras import optional
+from plisse.geometry.vectors import norm
+from plisse.measure.sectors import angle_defect
+from plisse.measure.verdict import EXACT
 from plisse.structure.chains import successive_triples
 from plisse.structure.incidence import edge_lookup
+from plisse.structure.place import place_of
 from plisse.structure.pleated import PleatedStructure
 from plisse.transform.edge_scales import ParallelSpace
 from plisse.transform.parallel import realised
@@ -23,6 +27,8 @@ __all__ = ["FAIRNESS", "nearest_parallel", "with_handles"]
 
 HOLD = 1000.0  # how much a handle weighs against all other vertices together
 TOLERANCE = 1e-10
+MOST_UNEVEN = 2000.0  # times as long against the original as the shortest edge the longest may become
+AT_BOUND = 1.01
 FAIRNESS = 10.0  # of differences of scales where handles pull
 
 
@@ -31,7 +37,8 @@ def nearest_parallel(structure: PleatedStructure, targets: np.ndarray, weights: 
     """The parallel mesh X that minimises the mean of w |X − target|² / h² under edge scales ≥ `least_scale`.
 
     `targets` (V, 3) in model units, `weights` (V,) not negative, default 1; h is the mean edge length, translations are
-    free. `fairness` times the mean squared difference of the scales of successive edges is added. Raises InvalidStructure
+    free. Raises Infeasible, with a place that can be reached, where targets would make all edges as short as
+    the limit or some of them more than 2000 times as long as others. `fairness` times the mean squared difference of the scales of successive edges is added. Raises InvalidStructure
     for targets that do not fit, MissingExtra where Clarabel is not installed.
     """
     space = ParallelSpace(structure)
@@ -39,7 +46,34 @@ def nearest_parallel(structure: PleatedStructure, targets: np.ndarray, weights: 
     scales = _solved(space, targets, weights, least_scale, fairness)
     found = realised(space, scales, anchor=0)
     shift = np.average(targets - found.vertices, axis=0, weights=weights)
-    return PleatedStructure(found.topology, found.vertices + shift, found.cut)
+    found = PleatedStructure(found.topology, found.vertices + shift, found.cut)
+    _require_reachable(space, found, targets, weights, least_scale)
+    return found
+
+
+def _require_reachable(space: ParallelSpace, found: PleatedStructure, targets: np.ndarray, weights: np.ndarray,
+                       least_scale: float) -> None:
+    """Raises Infeasible for meshes that have collapsed, naming a place on the way to where they have not.
+
+    All meshes between two parallel ones are parallel, and their scales lie between, so the place follows in one step.
+    """
+    scales, base = space.scales(found.vertices), space.structure
+    shortest, longest = float(scales.min()), float(scales.max())
+    if longest <= AT_BOUND * least_scale:
+        what, way = f"all edges would shrink to {least_scale:g} of their length, the least scale", 0.9
+    elif longest > MOST_UNEVEN * shortest:
+        what = (f"edges would become {shortest:.3g} to {longest:.3g} times as long; the longest factor may be "
+                f"{MOST_UNEVEN:g} times the shortest, which the least scale {least_scale:g} bounds")
+        way = (MOST_UNEVEN - 1) / (longest - 1 + MOST_UNEVEN * (1 - shortest))
+    elif (np.abs(angle_defect(found.topology, found.vertices)).max() > EXACT
+          >= np.abs(angle_defect(base.topology, base.vertices)).max()):
+        what, way = f"edges would become {shortest:.3g} to {longest:.3g} times as long, which rounding does not bear", 0.1
+    else:
+        return
+    pulled = int(np.argmax(weights * norm(targets - base.vertices)))
+    x, y, z = (1 - way) * base.vertices[pulled] + way * found.vertices[pulled]
+    raise Infeasible(f"the targets are out of reach: {what}; the point at {place_of(base.topology, pulled)} "
+                     f"can go to about {x:.5g}, {y:.5g}, {z:.5g}")
 
 
 def with_handles(structure: PleatedStructure, positions, handles: Mapping) -> tuple[np.ndarray, np.ndarray]:

@@ -19,6 +19,7 @@ from plisse.structure.place import place_of
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Topology
 from plisse.transform.edge_scales import ParallelSpace
+from plisse.transform.principal import require_folded
 from plisse.transform.saddle import least_quadratic, projected
 
 __all__ = ["cut_apart", "from_polylines", "parallel", "realised", "require_positive", "spiral"]
@@ -34,8 +35,10 @@ def parallel(structure: PleatedStructure, *, lengths=None, widths=None, growth: 
     One of three ways: factors `lengths` for the edges along the first crease and `widths` for those along the first
     zigzag of rulings, see `from_polylines`; `growth` of a spiral, see `spiral`; or `positions` (V, 3) and `handles`
     {(crease, point) or vertex: [x, y, z]} to be near to, with edge scales of at least `least_scale`, see
-    `plisse.transform.nearest_parallel`. Raises Infeasible where edges would have to turn round.
+    `plisse.transform.nearest_parallel`. Raises Infeasible where edges would have to turn round,
+    InvalidStructure for structures that lie flat.
     """
+    require_folded(structure, "it has no parallel structures")
     by_factors, by_growth, by_place = (lengths is not None or widths is not None), growth is not None, \
         (positions is not None or handles is not None)
     if by_factors + by_growth + by_place != 1:

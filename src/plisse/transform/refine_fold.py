@@ -18,6 +18,7 @@ from plisse.solve.flatten import flatten
 from plisse.structure.place import place_of
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Polyline, Topology
+from plisse.transform.principal import require_folded
 
 __all__ = ["inner_creases", "refine_fold", "refine_folds"]
 
@@ -40,6 +41,7 @@ def refine_folds(structure: PleatedStructure, creases: Iterable[int], *, fractio
                  at: float | None = None) -> PleatedStructure:
     """The structure with several folds replaced at once, not yet laid flat; with 1/3 strips are split into thirds."""
     topology, vertices = structure.topology, structure.vertices
+    require_folded(structure, "it has no fold to replace")
     if not 0 < fraction < 1:
         raise InvalidStructure(f"new creases cannot lie at {fraction:g} of a strip; give a fraction between 0 and 1")
     if at is not None and not 0 <= at <= 1:

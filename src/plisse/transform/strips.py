@@ -33,7 +33,8 @@ class RectifyingStrip:
     """A strip of planar quads along `points` (n, 3) with unit `rulings` (n, 3); face i lies between rulings i and i + 1.
 
     It reaches from `low` to `high` (model units, across the unfolded curve, low ≤ 0 ≤ high). `normals` (n − 1, 3) are
-    those of its faces. Closed curves repeat their first point: strips are cut there. `notes` say what was given up.
+    those of its faces. Closed curves repeat their first point: strips are cut there. `notes` say what was given up, `kept`
+    is the share of the curve's length that the strip has.
     """
 
     points: np.ndarray
@@ -43,6 +44,7 @@ class RectifyingStrip:
     high: float
     closed: bool = False
     notes: tuple[str, ...] = ()
+    kept: float = 1.0
 
     @property
     def width(self) -> float:
@@ -207,9 +209,9 @@ def _fitted(strip: RectifyingStrip) -> RectifyingStrip:
     if stop - start < FEWEST - 1:
         raise Infeasible(f"rulings meet within {0.5 * least * strip.width:.2g} of the curve near {percent:.0f} % of its "
                          f"length, and nowhere is it free for a strip of width {strip.width:g}; ask for narrower strips")
-    note = f"rulings meet near {percent:.0f} % of its length, so only {100 * share:.0f} % of it was kept"
+    note = f"rulings meet near {percent:.0f} % of its length, so only {100 * share:.2g} % of it was kept"
     return RectifyingStrip(strip.points[start:stop + 1], strip.rulings[start:stop + 1], strip.normals[start:stop],
-                           strip.low, strip.high, False, (*strip.notes, note))
+                           strip.low, strip.high, False, (*strip.notes, note), float(share))
 
 
 def _room(strip: RectifyingStrip) -> np.ndarray:

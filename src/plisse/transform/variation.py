@@ -19,10 +19,14 @@ __all__ = ["Member", "edge_factors", "variations"]
 
 
 class Member(NamedTuple):
-    """One of a family of parallel structures, and what it is."""
+    """One of a family of parallel structures, and what it is.
+
+    `pulls` (K, 2, 3) are places of handles before and where they were to go, where handles made it.
+    """
 
     caption: str
     structure: PleatedStructure
+    pulls: np.ndarray | None = None
 
 
 def variations(structure: PleatedStructure, recipe: Parallel) -> tuple[Member, ...]:
@@ -75,7 +79,9 @@ def _parallel(structure: PleatedStructure, recipe: Parallel, way: str) -> Member
     if way == "moves":
         assert recipe.moves is not None
         handles = {(move.crease - 1, move.point - 1): _place(structure, move) for move in recipe.moves}
-        return Member("nearest to the handles", parallel(structure, handles=handles, least_scale=recipe.least_scale))
+        found = parallel(structure, handles=handles, least_scale=recipe.least_scale)
+        before = [structure.vertices[structure.topology.creases[crease].vertices[point]] for crease, point in handles]
+        return Member("nearest to the handles", found, np.stack([before, list(handles.values())], axis=1))
     topology, vertices = structure.topology, structure.vertices
     return Member("edges rescaled", parallel(
         structure, lengths=edge_factors(recipe.lengths, topology.creases[0], vertices, "lengths"),
