@@ -220,7 +220,7 @@ def test_fig15a_follows_asymptotic_curves(results):
     assert np.abs(np.sum(normal[2:-2] * binormal, axis=1)).min() > np.cos(np.radians(5))
 
 
-@pytest.mark.parametrize("name", ["fig01d", "fig19"])
+@pytest.mark.parametrize("name", ["fig01d", pytest.param("fig19", marks=pytest.mark.slow)])
 def test_the_paper_method_reaches_the_defects_that_the_paper_prints(name):
     from plisse.io.designs import read_design
 
@@ -261,4 +261,5 @@ def test_fig26_is_cut_open_to_move(results):
     motion = structure.flex(120)
     assert "crease 1" in motion.cut_place
     assert motion.topology.vertex_count == structure.topology.vertex_count + 6
-    assert 100 in motion.free_range
+    assert motion.free_range.low == 0  # it unfolds to the sheet
+    assert motion.free_range.high > 120

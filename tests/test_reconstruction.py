@@ -54,6 +54,7 @@ def test_inclinations_are_reported_along_every_inner_crease(roof):
     assert all(-90 < entry.min <= entry.max < 90 for entry in inclinations)
 
 
+@pytest.mark.slow
 def test_a_mesh_file_beside_the_design_gives_the_same_as_its_formula(tmp_path, roof):
     mesh = HeightField(HEIGHT["surface"]["height"], (-100, 100), (-70, 70)).mesh(60)
     trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False).export(tmp_path / "roof.obj")
@@ -105,3 +106,14 @@ def test_an_edited_file_with_the_same_faces_is_followed(tmp_path, roof):
     assert np.abs(z - before - lift).mean() < 0.5 * np.abs(z - before).mean()
     with pytest.raises(InvalidDesign, match="faces that are not"):
         plisse.design(tmp_path / "c.toml")
+
+
+def test_the_reported_design_holds_what_was_chosen_and_leads_there_again(roof):
+    chosen, design = roof.report.layout, roof.report.design
+    assert design["pattern"]["width"] == chosen.width
+    assert design["pattern"]["amplitude"] == chosen.amplitude
+    assert design["surface"]["centre"] == HEIGHT["surface"]["centre"]
+    np.testing.assert_allclose(chosen.centre, design["surface"]["centre"], atol=1e-9)
+    again = plisse.design(design)
+    assert again.report.coverage > roof.report.coverage - 0.005
+    assert again.report.layout == chosen

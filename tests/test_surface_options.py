@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import plisse
+from plisse.errors import InvalidDesign
 from plisse.geometry.height_field import HeightField
 from plisse.geometry.polyline import distance_to_polyline
 from plisse.geometry.vectors import dot, unit
@@ -62,6 +63,7 @@ def test_creases_leave_the_guide_at_the_angle_asked_for():
         assert np.degrees(np.arctan2(run[:, 1], run[:, 0])) == pytest.approx(np.full(len(run), degrees), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_creases_around_a_point_keep_to_their_range_of_directions():
     result = made({**HILLS, "point": [0, 0, 0], "directions": [20, 160]}, {**SIZES, "creases": 10, "width": 0.3})
     guides = result.pattern.curves
@@ -100,6 +102,7 @@ def test_the_boundary_is_kept_where_creases_shall_end_on_it(along):
     assert kept.report.coverage > along.report.coverage
 
 
+@pytest.mark.slow
 def test_outlines_hold_more_than_rectangles_and_stay_inside_when_asked(along):
     outline = made({**HILLS, **GUIDE, "crop": "outline"})
     inside = made({**HILLS, **GUIDE, "crop": "outline", "boundary": True})
@@ -134,6 +137,7 @@ def test_whole_surfaces_become_principal_where_they_bend_evenly():
     assert result.report.deviation.mean_amplitudes < 0.5
 
 
+@pytest.mark.slow
 def test_pleats_stay_upright_below_the_amplitude_that_the_report_names():
     sizes = {**SIZES, "theta": 25}
     limit = 0.4 * np.cos(np.radians(50)) / (2 * np.sin(np.radians(25)))
@@ -143,6 +147,7 @@ def test_pleats_stay_upright_below_the_amplitude_that_the_report_names():
     assert any(f"amplitude below {limit:.3g}" in warning for warning in leaning.report.warnings)
 
 
+@pytest.mark.slow
 def test_the_paper_method_runs_on_families_and_keeps_its_weights():
     result = plisse.design({"surface": {**HILLS, **GUIDE}, "pattern": SIZES,
                             "solve": {"method": "paper", "weights": [10, 1, 100, 1, 0], "iterations": 8}})
@@ -151,6 +156,7 @@ def test_the_paper_method_runs_on_families_and_keeps_its_weights():
     assert result.report.history[-1] < 0.5 * result.report.history[0]
 
 
+@pytest.mark.slow
 def test_more_samples_refine_a_whole_surface_without_changing_it():
     surface = {"height": "12*sin(x/45)*cos(y/60)", "x": [-100, 100], "y": [-70, 70], "centre": [0, -420, 0]}
     coarse, fine = made(surface, {"width": 12}), made(surface, {"width": 12, "samples": 100})
@@ -160,3 +166,29 @@ def test_more_samples_refine_a_whole_surface_without_changing_it():
     nearest = np.min([distance_to_polyline(points, fine.structure.vertices[crease.vertices])
                       for crease in fine.structure.topology.creases], axis=0)
     assert nearest.max() < 0.1 * 0.8 * 12
+
+
+@pytest.mark.parametrize(("surface", "pattern", "says"), [
+    (GUIDE, {"width": 1e-5}, r"about 1\.7e\+07 vertices.*250,000.*pattern\.width"),
+    ({}, {"theta": 0.0, "width": 1e-5}, r"vertices, more than the 250,000"),
+    ({"point": [0, 0, 0]}, {"width": 1e-6, "creases": 8}, "too near"),
+    ({"guide": [[500, 0, 0], [502, 0, 0]]}, {}, r"surface\.guide is not on the surface: \(502, 0, 0\) lies 499"),
+    ({"guide": [[-2, 2.5, 0], [2, 2.5, 0]]}, {}, r"the guide is not on the surface: it passes 0\.48 beside it"),
+    ({"guide_boundary": 7}, {}, r"1 boundary loops, so there is no loop 7"),
+])
+def test_layouts_that_cannot_be_meant_are_refused_before_anything_is_traced(surface, pattern, says):
+    sizes = {**SIZES, **pattern} if surface else pattern
+    with pytest.raises(InvalidDesign, match=says):
+        plisse.design({"surface": {**HILLS, **surface}, "pattern": sizes})
+
+
+def test_little_coverage_is_said_with_what_would_cover_more(along):
+    assert along.report.coverage < 0.9
+    (said,) = [text for text in along.report.warnings if text.startswith("only ")]
+    assert f"{100 * along.report.coverage:.0f} % of the surface" in said
+    assert "crop" in said
+    assert "reach" not in said  # none was given
+
+
+def test_outlines_count_their_holes():
+    assert made({**HILLS, **GUIDE, "crop": "outline"}).report.holes == 0

@@ -5,7 +5,7 @@ import numpy as np
 
 from plisse.assess import assess, overlap_notes, spread, start_defects
 from plisse.errors import Infeasible
-from plisse.families import family_of
+from plisse.families import SAMPLES, family_of
 from plisse.geometry.mesh import ReferenceMesh
 from plisse.geometry.polyline import distance_to_polyline
 from plisse.geometry.surface import Surface
@@ -19,6 +19,7 @@ from plisse.recipe import SurfaceDesign
 from plisse.reconstruction import deviation_of, lies_over, overhang_notes
 from plisse.result import Overlay, Report, Result
 from plisse.solve.attempt import Start
+from plisse.solve.candidate import holes_of
 from plisse.solve.cutting import best_cut
 from plisse.solve.energies import Guides
 from plisse.solve.flatten import flatten, laid_out
@@ -32,7 +33,7 @@ from plisse.structure.pleated import PleatedStructure
 __all__ = ["guided"]
 
 FAN_GAPS = (0.5, 2.0)  # where a fan begins and ends, in gaps of a flat disk
-SAMPLES = 60
+COVERED = 0.9  # coverage below which the report says how to get more
 EVEN = 1.25  # largest over smallest width of a strip up to which principal structures were found
 
 
@@ -99,7 +100,8 @@ def _over(recipe: SurfaceDesign, start: Start, structure: PleatedStructure, repo
     report = msgspec.structs.replace(
         report, start=start_defects(first), coverage=coverage, seconds=watch.stop(), design=recipe.to_dict(),
         deviation=deviation_of(deviation, mesh.diagonal, start.amplitude),
-        warnings=[*overhang_notes(structure, surface, recipe.pattern), *overlap_notes(report)])
+        warnings=[*_coverage_notes(recipe, coverage), *overhang_notes(structure, surface, recipe.pattern),
+                  *overlap_notes(report)])
     return Result(recipe, report, start.pattern, first, structure, Overlay(mesh, deviation.distances, start.amplitude))
 
 
@@ -127,9 +129,24 @@ def _to_the_outline(recipe: SurfaceDesign, family: Family, mesh: ReferenceMesh, 
     report = msgspec.structs.replace(
         report, seconds=watch.stop(), design=recipe.to_dict(), coverage=coverage, method="optimised, cropped to the outline",
         deviation=deviation_of(deviation, mesh.diagonal, amplitude), crease_deviation=spread(astray / amplitude),
-        iterations=len(found.history),
-        warnings=[*notes, *overhang_notes(structure, surface, recipe.pattern), *overlap_notes(report)])
+        iterations=len(found.history), holes=holes_of(structure.topology, mesh),
+        warnings=[*notes, *_coverage_notes(recipe, coverage), *overhang_notes(structure, surface, recipe.pattern),
+                  *overlap_notes(report)])
     return Result(recipe, report, structure=structure, overlay=Overlay(mesh, deviation.distances, amplitude))
+
+
+def _coverage_notes(recipe: SurfaceDesign, coverage: float) -> list[str]:
+    """How much of the surface lies under the structure where that is little, and what would cover more."""
+    if coverage >= COVERED:
+        return []
+    section = recipe.surface
+    around = section.point is not None and not section.directions
+    closed = around or section.guide_closed or section.guide_boundary is not None
+    remedies = ['surface.crop = "outline"'] * (section.crop != "outline" and not closed)
+    remedies += ["a larger surface.reach"] * (section.reach is not None) + ["surface.beyond = true"] * (
+        not section.beyond and not section.boundary and section.crop != "outline")
+    return [f"only {100 * coverage:.0f} % of the surface lie under the structure: "
+            f"{', '.join(remedies) + ', ' * bool(remedies)}another guide or another theta may cover more"]
 
 
 def _uneven(start: Start) -> list[str]:

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 
+import msgspec
 import numpy as np
 import trimesh
 from scipy.spatial import cKDTree
@@ -19,21 +20,22 @@ from plisse.geometry.parametric import ParametricSurface
 from plisse.geometry.surface import Surface as Reference
 from plisse.io.meshes import read_mesh
 from plisse.layout.coverage import AreaSamples, covered
-from plisse.layout.positions import upright_amplitude
+from plisse.layout.positions import refuse_too_many, upright_amplitude
 from plisse.layout.rows import ChartedSurface
 from plisse.measure.inclination import crease_inclinations, overhanging
 from plisse.measure.mid_surface import MidSurfaceDeviation, mid_surface_deviation
 from plisse.measure.regularity import OPENING_RANGE
 from plisse.recipe import Surface, SurfaceDesign, SurfacePattern
-from plisse.result import Deviation, Interval
+from plisse.result import ChosenLayout, Deviation, Interval
+from plisse.solve.candidate import centre_of
 from plisse.solve.edited import edited_structure
 from plisse.solve.finer import Sampled, finer
 from plisse.solve.principal_surface import nearest_principal
 from plisse.solve.whole_surface import FOLDABLE, REACH, WholeSurface, whole_surface
 from plisse.structure.pleated import PleatedStructure
 
-__all__ = ["deviation_of", "edited_vertices", "inclinations_of", "laid_out_over", "lies_over", "made_principal",
-           "overhang_notes", "reference_surface", "sampled", "solved_again"]
+__all__ = ["as_chosen", "chosen_layout", "deviation_of", "edited_vertices", "inclinations_of", "laid_out_over",
+           "lies_over", "made_principal", "overhang_notes", "reference_surface", "sampled", "solved_again"]
 
 GRAPH = 0.9999
 
@@ -87,11 +89,34 @@ def laid_out_over(recipe: SurfaceDesign, mesh: ReferenceMesh, surface: ChartedSu
                   progress: Callable[[str, float], None] | None = None) -> WholeSurface:
     """The best of the layouts of fitted inclination that a design asks for; raises Infeasible where none is solved."""
     section, pattern = recipe.surface, recipe.pattern
+    if pattern.width is not None:
+        refuse_too_many(mesh.area / pattern.width**2, "give a larger pattern.width")
     return whole_surface(
         mesh, surface, width=pattern.width, amplitude=pattern.amplitude, overhang=bool(section.overhang),
         above=section.side == "above", inside=section.boundary, candidates=candidates, seams=section.seams,
         theta=None if pattern.theta is None else float(np.radians(pattern.theta)),
         centre=None if section.centre is None else np.array(section.centre), progress=progress)
+
+
+def chosen_layout(found: WholeSurface, surface: ChartedSurface) -> ChosenLayout:
+    """The sizes and the centre, if any, of the layout that was chosen."""
+    layout, centre = found.best.layout, centre_of(found.best, surface)
+    return ChosenLayout(layout.label, float(layout.sizes.width), float(layout.sizes.amplitude),
+                        None if centre is None else centre.tolist())
+
+
+def as_chosen(recipe: SurfaceDesign, found: WholeSurface, chosen: ChosenLayout) -> SurfaceDesign:
+    """The recipe that leads to the chosen layout without a search: with its sizes and seams where rows have a centre.
+
+    Sizes of other layouts belong to the search, so their recipe stays as it is.
+    """
+    centre = recipe.surface.centre or chosen.centre
+    if centre is None:
+        return recipe
+    seams = len(found.best.seams) or recipe.surface.seams
+    return msgspec.structs.replace(
+        recipe, surface=msgspec.structs.replace(recipe.surface, centre=centre, seams=seams),
+        pattern=msgspec.structs.replace(recipe.pattern, width=chosen.width, amplitude=chosen.amplitude))
 
 
 def edited_vertices(section: Surface, mesh: ReferenceMesh) -> np.ndarray | None:

@@ -13,7 +13,7 @@ from plisse.structure.pleated import PleatedStructure
 from plisse.transform.arrangement import Arrangement
 from plisse.transform.variation import Member
 
-__all__ = ["Deviation", "Interval", "Overlay", "Report", "Result", "Sheet", "Spread", "StripEntry"]
+__all__ = ["ChosenLayout", "Deviation", "Interval", "Overlay", "Report", "Result", "Sheet", "Spread", "StripEntry"]
 
 
 class Spread(msgspec.Struct, frozen=True):
@@ -50,6 +50,15 @@ class Deviation(msgspec.Struct, frozen=True):
     mean_amplitudes: float
 
 
+class ChosenLayout(msgspec.Struct, frozen=True):
+    """What was chosen over a whole surface: what rows do, sizes in model units, and the point they run around, if any."""
+
+    label: str
+    width: float
+    amplitude: float
+    centre: list[float] | None
+
+
 class StripEntry(msgspec.Struct, frozen=True):
     """One strip of a cutting list: the number of its curve (from 1), sizes in model units, angles to the surface."""
 
@@ -83,6 +92,7 @@ class Report(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=False):
     holes: int | None = None
     coverage: float | None = None
     deviation: Deviation | None = None
+    layout: ChosenLayout | None = None
     inclination_deg: list[Interval] | None = None
     principal: bool = False
     edge_scales: Interval | None = None

@@ -11,10 +11,13 @@ from plisse.geometry.parametric import ParametricSurface
 from plisse.guided import guided
 from plisse.layout.automatic import Sizes, starting_rows
 from plisse.layout.coverage import AreaSamples
+from plisse.layout.positions import refuse_too_many
 from plisse.layout.rows import ChartedSurface
 from plisse.outcomes import broken_down
 from plisse.recipe import SurfaceDesign
 from plisse.reconstruction import (
+    as_chosen,
+    chosen_layout,
     deviation_of,
     edited_vertices,
     inclinations_of,
@@ -63,8 +66,10 @@ def reconstructed(recipe: SurfaceDesign, watch: Stopwatch) -> Result:
     watch.start("measure", 0.95)
     report = assess(structure, principal=recipe.solve.principal, units=recipe.units)
     amplitude = found.best.layout.sizes.amplitude
+    chosen = chosen_layout(found, surface)
     report = msgspec.structs.replace(
-        report, seconds=watch.stop(), design=recipe.to_dict(), method="fitted inclination", coverage=found.coverage,
+        report, seconds=watch.stop(), design=as_chosen(recipe, found, chosen).to_dict(), layout=chosen,
+        method="fitted inclination", coverage=found.coverage,
         deviation=deviation_of(found.deviation, mesh.diagonal, amplitude), inclination_deg=inclinations_of(found),
         seams=len(found.best.seams), holes=max(found.best.holes, 0),
         warnings=[*found.notes, *overlap_notes(report)])
@@ -76,6 +81,7 @@ def _from_a_bad_start(recipe: SurfaceDesign, mesh: ReferenceMesh, surface: Chart
     pattern = recipe.pattern
     assert pattern.width is not None
     assert pattern.amplitude is not None
+    refuse_too_many(mesh.area / pattern.width**2, "give a larger pattern.width")
     place = surface.to_plane(np.array([recipe.surface.centre]))[0, :2]
     rows = starting_rows(mesh, surface, place, pattern.width)
     samples = AreaSamples.of(mesh.vertices, mesh.triangles)

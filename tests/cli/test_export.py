@@ -37,6 +37,7 @@ def test_models_made_elsewhere_pass_through(cones, tmp_path, capsys):
 @pytest.mark.parametrize(("arguments", "word"), [
     (["export", "s.fold", "-o", "s.step"], ".step"),
     (["export", "s.fold", "-o", "no/s.obj"], "no directory"),
+    (["export", "s.fold", "-o", "a.obj", "-o", "./a.obj"], "named twice"),
     (["export", "missing.fold", "-o", "s.obj"], "missing.fold"),
     (["export", "s.txt", "-o", "s.obj"], "neither"),
     (["export", "flat.fold", "-o", "s.svg"], "no folded form"),

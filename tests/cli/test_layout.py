@@ -50,6 +50,7 @@ def test_a_mesh_is_laid_out_and_the_design_written_leads_to_the_same_layout(tmp_
     assert result.report.coverage == pytest.approx(promised, abs=0.005)
 
 
+@pytest.mark.slow
 def test_a_design_keeps_what_it_asks_for_and_gains_a_centre(tmp_path, capsys):
     (tmp_path / "wave.toml").write_text(DESIGN, encoding="utf-8")
     out = tmp_path / "out"

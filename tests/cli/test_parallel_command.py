@@ -84,7 +84,9 @@ def test_the_family_is_drawn_side_by_side(structure, tmp_path):
     (["--move", "99,1:0,0,0"], "no point 1 on a crease 99"), (["--refine-fold", "1"], "boundary"),
     (["--refine-fold", "x"], "nor all"), (["--growth", "2", "--widths", "2"], "one way"), (["--near", "no.fold"], "no file"),
     (["--handles", "none.csv"], "cannot be read"), (["--least-scale", "3", "--move", "1,1:1,1,1"], "least_scale"),
-    (["--refine-fold", "all", "--fraction", "0.9"], "below"),
+    (["--refine-fold", "all", "--fraction", "0.9"], "below"), (["--widths", "2", "--rounds", "3"], "--refine-fold"),
+    (["--widths", "2", "--at", "5"], "--refine-fold"), (["--widths", "2", "--least-scale", "0.5"], "--least-scale"),
+    (["--move", "1,1:1e9,0,0"], "out of reach"),
 ])
 def test_bad_wishes_are_one_sentence_and_nothing_is_written(structure, tmp_path, capsys, options, says):
     assert main(["parallel", "base.fold", *options, "-o", "out.fold"]) == 1
@@ -113,6 +115,14 @@ def test_strips_along_creases_are_drawn_listed_and_solid(structure, tmp_path, ca
     assert sorted(element.text for element in text) == ["1", "2", "3", "4", "5"]
     flat = read_fold(out / "structure.fold")
     assert flat.topology.components == 5
+
+
+@pytest.mark.parametrize(("arguments", "says"), [
+    (["base.fold", "--closed"], "--closed"), (["helix.csv", "--crease", "2"], "--crease")])
+def test_strips_refuse_options_that_mean_nothing(structure, tmp_path, capsys, arguments, says):
+    assert main(["strips", *arguments, "--width", "0.1"]) == 1
+    assert says in capsys.readouterr().err
+    assert [file.name for file in tmp_path.iterdir()] == ["base.fold"]
 
 
 def test_strips_along_a_curve_file_and_a_design(tmp_path, without_pictures, monkeypatch, capsys):

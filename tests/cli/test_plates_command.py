@@ -64,7 +64,32 @@ FLAT = '{"file_spec": 1.2, "frame_classes": ["creasePattern"], "vertices_coords"
        '"faces_vertices": [[0,1,2,3]]}'
 
 
+def squares(heights):
+    """A FOLD file with a row of two squares, or one, and nothing said of what they are."""
+    columns = range(len(heights))
+    points = [[x, y, z] for y in (0, 1) for x, z in zip(columns, heights, strict=True)]
+    faces = [[k, k + 1, len(heights) + k + 1, len(heights) + k] for k in columns[:-1]]
+    return json.dumps({"file_spec": 1.2, "vertices_coords": [p[:2] if not any(heights) else p for p in points],
+                       "faces_vertices": faces})
+
+
+@pytest.mark.parametrize("command", [["offset", "--distance", "1"], ["plates", "--thickness", "0.1"], ["flex"],
+                                     ["parallel", "--widths", "1.1"], ["parallel", "--refine-fold", "all"]])
+@pytest.mark.parametrize(("heights", "words"), [((0, 0, 0), "lies flat"), ((0, 0), "no crease lies between"),
+                                                ((0, 1, 2), "lies flat")])
+def test_what_is_not_folded_is_refused_alike(file, capsys, command, heights, words):
+    (file.parent / "flat.fold").write_text(squares(heights), encoding="utf-8")
+    before = sorted(file.parent.iterdir())
+    assert main([command[0], "flat.fold", *command[1:]]) == 1
+    captured = capsys.readouterr()
+    assert captured.out == "" and captured.err.count("\n") == 1 and words in captured.err
+    assert sorted(file.parent.iterdir()) == before
+
+
 @pytest.mark.parametrize(("arguments", "words"), [
+    (["plates", "cones.fold", "--thickness", "1", "--kerf", "0.2"], "--material"),
+    (["plates", "cones.fold", "--thickness", "1", "--material", "1x1"], "no room inside margins"),
+    (["plates", "cones.fold", "--thickness", "1", "--material", "900x900", "--kerf", "500"], "wider than plate"),
     (["offset", "general.fold", "--distance", "1"], "not principal"),
     (["offset", "general.fold", "--distance", "1", "-o", "a.stl"], "neither"),
     (["offset", "cones.fold", "--distance", "nan"], "finite"),
@@ -113,3 +138,12 @@ def test_plates_larger_than_the_material_leave_nothing_behind(file, capsys):
     assert main(["plates", "cones.fold", "--thickness", "2", "--material", "60x60"]) == 1
     assert "does not fit" in capsys.readouterr().err
     assert [path.name for path in file.parent.iterdir()] == ["cones.fold"]
+
+
+def test_files_that_only_look_like_plates_stay(file, without_picture):
+    (file.parent / "out").mkdir()
+    mine = {"plate_mine.stl", "plates-sheet-metal.svg"}
+    for name in mine:
+        (file.parent / "out" / name).touch()
+    assert main(["plates", "cones.fold", "--thickness", "2", "-o", "out", "--quiet"]) == 0
+    assert mine <= {path.name for path in (file.parent / "out").iterdir()}

@@ -11,6 +11,7 @@ from plisse.cli import main
 from plisse.deviations import deviation_again
 from plisse.draw.colour_maps import deviation_of
 from plisse.io.fold import write_fold
+from plisse.io.obj import write_obj
 from plisse.io.report import read_report, write_report
 
 EVOLVED = {"curve": {"kind": "spline", "points": [[80, -60, -8], [97, -30, -2], [103, 2, 1], [98, 34, 5], [82, 64, 12]]},
@@ -64,6 +65,7 @@ def test_a_gif_turns(made, tmp_path):
     (["-o", "a.jpg"], "no picture"), (["-o", "a.png", "--size", "3x3"], "--size"),
     (["-o", "a.png", "--view", "behind"], "--view"),
     (["-o", "a.gif", "--transparent"], "transparency"), (["-o", "a.gif", "--frames", "1"], "--frames"),
+    (["-o", "a.png", "--frames", "4"], ".gif that turns"),
     (["-o", "none/a/b.png", "--size", "100x100", "--view", "x"], "--view")])
 def test_what_render_cannot_do_is_one_sentence_and_no_file(made, tmp_path, monkeypatch, capsys, options, sentence):
     monkeypatch.chdir(tmp_path)
@@ -122,3 +124,15 @@ def test_deviations_measured_again_from_the_recipe_are_those_of_the_result(made)
 
 def test_reports_read_back(made):
     assert read_report(made[0] / "report.json").planarity == made[1].report.planarity
+
+
+def test_a_mesh_that_lies_flat_has_its_sheet_on_the_page_and_one_that_does_not_says_why(made, tmp_path):
+    structure = made[1].structure
+    bent = structure.vertices + [0, 0, 1] * (np.arange(len(structure.vertices)) == 60)[:, None]
+    write_obj(structure, tmp_path / "model.obj")
+    write_obj(structure.with_vertices(bent), tmp_path / "bent.obj")
+    for name in ("model", "bent"):
+        assert run("report", tmp_path / f"{name}.obj", "-o", tmp_path / f"{name}.html", "--quiet") == 0
+    model, bent_page = ((tmp_path / f"{name}.html").read_text(encoding="utf-8") for name in ("model", "bent"))
+    assert "The flat sheet" in model and "paper needed for the flat state" in model
+    assert "The flat sheet" not in bent_page and "There is no flat sheet" in bent_page

@@ -64,6 +64,9 @@ def test_a_mesh_without_development_is_laid_flat_first(cones, fold):
     (["--scale", "2", "--size", "100"], "one of them"),
     (["--size", "0"], "--size"),
     (["--tolerance", "0"], "--tolerance"),
+    (["--tolerance", "1000", "--curves", "arc"], "up to 1 mm"),
+    (["--spacing", "1e9"], "spacing"),
+    (["--scale", "1e-6"], "larger scale"),
     (["-o", "out.png"], ".svg"),
     (["-o", "missing/out.pdf"], "missing"),
     (["-o", "cones.fold/out"], "cannot be written"),
@@ -81,3 +84,10 @@ def test_a_mesh_that_does_not_lie_flat_is_refused(cones, fold, capsys):
     write_obj(cones.with_vertices(cones.vertices + noise), fold.parent / "bent.obj")
     assert main(["sheets", "bent.obj", "-o", "out.svg"]) == 1
     assert "does not lie flat" in capsys.readouterr().err
+
+
+def test_small_numbers_and_short_flaps_are_noted(fold, capsys):
+    assert main(["sheets", "cones.fold", "-o", "out.svg", "--material", "150x160", "--tab", "60", "--scale", "0.2"]) == 0
+    assert "mm high" in capsys.readouterr().out
+    assert main(["sheets", "cones.fold", "-o", "out.svg", "--material", "150x160", "--tab", "60"]) == 0
+    assert "flaps of less than 60 mm" in capsys.readouterr().out

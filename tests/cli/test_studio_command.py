@@ -8,11 +8,13 @@ from plisse.cli import main
 
 
 def test_ports_that_are_none_are_refused(capsys):
+    pytest.importorskip("viser")
     assert main(["studio", "--port", "70000", "--no-browser"]) == 1
     assert "no port" in capsys.readouterr().err
 
 
 def test_unknown_designs_are_refused_with_a_suggestion(capsys):
+    pytest.importorskip("viser")
     assert main(["studio", "fig1d", "--no-browser"]) == 1
     assert "fig01d" in capsys.readouterr().err
 

@@ -6,7 +6,7 @@ from PIL import Image
 
 from plisse.draw.animation import write_gif
 from plisse.draw.cones import with_cone
-from plisse.draw.motion import write_motion_strip
+from plisse.draw.motion import shown_percents, write_motion_strip
 from plisse.geometry.vectors import dot, norm
 from plisse.measure.planarity import face_normals
 from plisse.structure.exact import conical_vertex, miura
@@ -17,6 +17,13 @@ def test_the_strip_shows_paper_beside_the_table(tmp_path):
     with Image.open(tmp_path / "strip.png") as image:
         assert image.width == 2400
         assert len(image.convert("RGB").resize((200, 80)).getcolors(16_000)) > 500
+
+
+@pytest.mark.parametrize(("given", "shown"), [
+    (np.linspace(0, 200, 20), [0, 50, 100, 150, 200]), (np.linspace(0, 150, 30), [0, 37.5, 75, 100, 150]),
+    ([0, 50, 150], [0, 50, 100, 150]), (np.linspace(0, 80, 9), [0, 20, 40, 60, 80]), ([30], [30])])
+def test_pictures_show_the_designed_state_among_even_ones(given, shown):
+    assert shown_percents(np.array(given, float)) == pytest.approx(shown)
 
 
 def test_the_animation_goes_to_and_fro_without_end(tmp_path):

@@ -5,8 +5,8 @@ import pytest
 import shapely
 
 from plisse.draw.pages import printed_pages
-from plisse.draw.shapes import Arc, Line, Spline
-from plisse.draw.sheets import sheet_drawings
+from plisse.draw.shapes import Arc, Bulged, Line, Spline
+from plisse.draw.sheets import legend_of, sheet_drawings
 from plisse.draw.smoothing import Smoother
 from plisse.draw.strokes import PRINT
 from plisse.fabricate import sheets
@@ -111,3 +111,37 @@ def test_sheets_no_larger_than_the_paper_lie_whole_in_the_middle_of_a_page(plan)
         shift = (np.array(page.size) - drawing.size) / 2
         for layer, other in zip(page.layers, drawing.layers, strict=True):
             assert all(np.abs(a.path - b.path - shift).max() < 1e-9 for a, b in zip(layer.lines, other.lines, strict=True))
+
+
+@pytest.mark.parametrize("kind", ["polyline", "spline", "arc"])
+@pytest.mark.parametrize("direction", [1, -1])
+def test_every_outline_is_one_closed_shape_of_whatever_curves(kind, direction):
+    turn = np.linspace(0, 1.2, 300)
+    bend = 60 * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    outline = np.concatenate([bend, 0.5 * bend[::-1]])[::direction]
+    shape = Smoother(kind, 0.05).outline(outline)
+    assert isinstance(shape, {"polyline": Line, "spline": Spline, "arc": Bulged}[kind]) and shape.closed
+    assert np.abs(shape.path[0] - shape.path[-1]).max() < 1e-9
+    exact = shapely.Polygon(outline)
+    assert shapely.Polygon(shape.path).symmetric_difference(exact).area < 0.05 * exact.length
+    assert shape.length == pytest.approx(exact.length, rel=1e-4)  # a polyline of 300 points is shorter than its arc
+
+
+def test_a_closed_line_of_arcs_turns_as_its_bulges_say():
+    disk = Bulged(np.array([[-2.0, 0.0], [2.0, 0.0]]), np.array([1.0, 1.0]))
+    assert disk.radii == pytest.approx([2.0, 2.0], rel=1e-12)
+    assert disk.length == pytest.approx(4 * np.pi, rel=1e-12)
+    lens = Bulged(disk.points, np.array([np.tan(np.pi / 8), 0.0]))
+    assert lens.path[:, 1].min() == pytest.approx(-2 * (np.sqrt(2) - 1), rel=1e-6)  # controls follow arcs to 1e-9
+
+
+def test_the_first_tile_bears_the_title_and_explains_the_folds(cones):
+    drawings = sheet_drawings(sheets(cones, material=(420.0, 300.0)), title="fan", strokes=PRINT, captioned=False)
+    first, *others = printed_pages(drawings, (210.0, 297.0), legend_of(drawings, "dashed"))
+    words = [text.words for text in first.layer("text").texts]
+    assert {"fan sheet 1", "mountain", "valley"} <= set(words)
+    assert all("fan sheet 1" not in [text.words for text in page.layer("text").texts] for page in others)
+    boxes = [text_box(text) for text in first.layer("text").texts if text.at[1] < 17]
+    assert not any(one.intersects(other) for k, one in enumerate(boxes) for other in boxes[:k])
+    samples = [line for line in first.layer("mountain").lines if line.path[:, 1].max() < 17]
+    assert samples and all(8 <= x <= first.size[0] - 8 for line in samples for x in line.path[:, 0])

@@ -9,6 +9,8 @@ import shapely
 
 from plisse.errors import Infeasible, InvalidStructure, MissingExtra, PlisseError
 from plisse.fabricate import sheets
+from plisse.fabricate.pieces import _outline, _without_islands
+from plisse.fabricate.tabs import Tab
 from plisse.structure.grid import grid
 from plisse.structure.pleated import PleatedStructure
 
@@ -206,3 +208,30 @@ def test_dense_nesting_without_its_library_says_what_to_install(cones, monkeypat
 def test_without_development_there_is_nothing_to_cut(cones):
     with pytest.raises(InvalidStructure, match="flatten"):
         sheets(cones.with_vertices(cones.vertices))
+
+
+@pytest.mark.parametrize("kerf", [0.1, 0.2, 0.5])
+def test_every_piece_is_one_loop_to_cut_and_flaps_stay_apart_however_wide_the_kerf(cones, kerf):
+    plan = sheets(cones, material=(110.0, 110.0), kerf=kerf)
+    assert len(plan.joints) > 0 and sum(len(piece.rings) for piece in plan.pieces) == len(plan.pieces)
+    flaps = [[shapely.Polygon(tab.points) for tab in piece.tabs] for piece in plan.pieces]
+    assert all(one.distance(other) > kerf for some in flaps for k, one in enumerate(some) for other in some[:k])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kerf", [0.1, 0.5])
+def test_flaps_of_a_winding_ring_do_not_fuse(ring, kerf):
+    plan = sheets(ring, material=(600.0, 300.0), kerf=kerf)
+    assert sum(len(piece.rings) for piece in plan.pieces) == len(plan.pieces)
+    assert any("less than 6 mm" in note for note in plan.notes)
+
+
+def test_flaps_that_close_around_a_hole_are_left_out():
+    square = shapely.box(0, 0, 20, 20)
+    hooks = [np.array([[2, 20], [3, 20], [3, 24], [9, 24], [9, 25], [2, 25]], float),
+             np.array([[17, 20], [17, 25], [9.2, 25], [9.2, 24], [16, 24], [16, 20]], float)]
+    tabs = tuple(Tab(str(k), 0, hook - [0, 0.02], 5.0) for k, hook in enumerate(hooks))
+    outline = _outline(square, tabs, 0.5, 1)
+    assert len(outline.interiors) == 1
+    kept, outline = _without_islands(square, tabs, outline, 0.5, 1)
+    assert kept == () and len(outline.interiors) == 0

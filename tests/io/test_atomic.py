@@ -54,3 +54,9 @@ def test_an_unwritable_place_is_one_sentence(tmp_path):
 def test_asking_whether_a_place_is_writable_changes_nothing(tmp_path):
     require_writable(tmp_path / "a" / "b")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_nested_writing_names_the_file_that_was_asked_for(tmp_path):
+    with pytest.raises(PlisseError) as caught, written(tmp_path / "missing" / "a.txt") as aside, written(aside) as inner:
+        inner.write_text("x")
+    assert str(caught.value).startswith(f"{tmp_path / 'missing' / 'a.txt'} cannot be written")

@@ -7,6 +7,7 @@ import pytest
 
 from plisse.errors import InvalidDesign
 from plisse.io.designs import design_from_dict, parse_assignment, read_design
+from plisse.recipe import Points
 
 GOOD = {"curve": {"kind": "arc", "radius": 5}, "pattern": {"creases": 5, "width": 1, "amplitude": 1}}
 
@@ -44,6 +45,8 @@ MISTAKES = {
     "missing radius": ({"curve": {"kind": "arc"}}, r"curve\.radius is missing"),
     "missing kind": ({"curve": {"radius": 3}}, r"curve\.kind is missing"),
     "a section that is a number": ({"pattern": 3}, r"pattern"),
+    "units of a race course": ({"units": "furlong"}, r"^units is 'furlong'; give mm, cm, m, in or ft$"),
+    "no amplitude": ({"pattern__amplitude": 0}, r"^pattern\.amplitude[^`]*$"),
     "units of a star ship": ({"units": "parsec"}, r"units.*mm, cm, m"),
     "principal as a number": ({"solve__principal": 1}, r"solve\.principal.*true or false"),
     "unknown method": ({"solve__method": "magic"}, r"solve\.method.*exact or paper"),
@@ -81,6 +84,16 @@ def test_a_good_design_keeps_its_defaults_in_the_provenance():
     assert recipe["solve"]["method"] == "exact"
     assert recipe["curve"]["kind"] == "arc"
     assert design_from_dict(recipe).to_dict() == recipe
+
+
+@pytest.mark.parametrize(("text", "says"), [
+    ("x,y,z\n0,0,0\n1,nan,0\n2,0,0\n3,1,0\n", "line 3 is '1,nan,0', which is not finite"),
+    ("x,y,z\n0,0,0\n1,one,0\n2,0,0\n", "line 3 is '1,one,0'"),
+])
+def test_bad_rows_are_named_by_their_line_in_the_file(tmp_path, text, says):
+    (tmp_path / "points.csv").write_text(text, encoding="utf-8")
+    with pytest.raises(InvalidDesign, match=says):
+        design_from_dict(changed(curve={"kind": "spline", "file": "points.csv"}), base=tmp_path)
 
 
 def test_overrides_take_toml_values_and_bare_words(tmp_path):
@@ -131,3 +144,11 @@ def test_rows_of_different_length_are_named(tmp_path):
     (tmp_path / "c.csv").write_text("0,0,0\n1,1\n2,2,2\n")
     with pytest.raises(InvalidDesign, match="different lengths"):
         design_from_dict(changed(curve={"kind": "spline", "file": "c.csv"}), base=tmp_path)
+
+
+def test_a_curve_that_names_a_file_and_no_kind_is_measured_points(tmp_path):
+    np.savetxt(tmp_path / "curve.csv", np.stack([np.arange(9.0), np.arange(9.0) ** 2, np.zeros(9)], axis=1), delimiter=",")
+    pattern = {"creases": 4, "width": 1, "amplitude": 0.5}
+    found = design_from_dict({"curve": {"file": "curve.csv"}, "pattern": pattern}, base=tmp_path)
+    assert isinstance(found.curve, Points)
+    assert len(found.curve.points) == 9

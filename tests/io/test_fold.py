@@ -108,7 +108,7 @@ def test_files_of_others_are_labelled_by_their_mountains_and_valleys(cones, tmp_
     ("{", "does not hold valid JSON"),
     ("[1, 2]", "not an object"),
     ("{}", "no faces_vertices"),
-    ('{"faces_vertices": [[0, 1, 2]], "vertices_coords": [[0, 0], [1, 0], [1, 1]]}', "face 0 has 3 edges"),
+    ('{"faces_vertices": [[0, 1, 2]], "vertices_coords": [[0, 0], [1, 0], [1, 1]]}', "face 1 has 3 edges"),
     ('{"faces_vertices": [[0, 1, 2, 9]], "vertices_coords": [[0, 0], [1, 0], [1, 1]]}', "does not name"),
     ('{"faces_vertices": [[0, 1, 2, 3]], "vertices_coords": [[0, 0], [1, 0], [1, 1], ["x", 1]]}', "numbers"),
     ('{"faces_vertices": [[0, 1, 2, 3]], "vertices_coords": [[0, 0], [1, 0], [1, 1], [NaN, 1]]}', "finite"),

@@ -76,7 +76,7 @@ def test_negative_indices_slashes_and_turned_faces_are_understood(tmp_path):
 
 @pytest.mark.parametrize(("text", "sentence"), [
     ("", "no faces"),
-    ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "face 0 has 3 edges"),
+    ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "face 1 has 3 edges"),
     ("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 nan 0\nf 1 2 3 4\n", "vertex 4 .* finite"),
     ("v 0 0 0\nv 1 0\nf 1 2 3 4\n", "line 2"),
     ("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 7\n", "outside 1 to 4"),

@@ -8,10 +8,12 @@ import tomllib
 from html import unescape
 from html.parser import HTMLParser
 
+import numpy as np
 import pytest
 
 import plisse
 from plisse.assess import assess
+from plisse.draw.page_plots import sheet_svg
 from plisse.draw.viewer import resource
 from plisse.io.page import report_page
 from plisse.io.report import report_json
@@ -109,6 +111,18 @@ def test_every_map_has_its_scale_and_the_deviation_is_among_them(page):
     assert re.findall(r'data-map="(\w+)"', page) == choices[1:]
 
 
+def test_mountains_are_dash_dotted_and_valleys_dashed_on_the_sheet_and_in_its_key(page):
+    for name, marks in (("mountain", 4), ("valley", 2)):
+        paths = re.findall(rf'<path class="{name}"[^>]*>', page)
+        dashes = [re.search(r'stroke-dasharray="([^"]*)"', path) for path in paths]
+        assert len(dashes) == 2 and all(dash and len(dash[1].split()) == marks for dash in dashes)
+    assert "drawn through" not in page
+
+
+def test_the_sentence_below_the_chart_counts_its_points(page):
+    assert f"measured {page.count('<circle')} times" in page
+
+
 def test_words_of_strangers_stay_words(cones, small_still):
     report = assess(cones)
     page = report_page(cones, report, title='</title><script>alert("x")</script>')
@@ -147,6 +161,7 @@ def test_the_script_parses(tmp_path):
     assert subprocess.run(["node", "--check", script]).returncode == 0
 
 
+TIMERS = "<head><script>window.requestAnimationFrame = (frame) => setTimeout(frame, 0);</script>"
 BROWSER = next((found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))), None)
 
 
@@ -156,7 +171,6 @@ def test_a_browser_shows_it_without_complaint(page, tmp_path):
 
     Frames come by timers, which a browser without screen keeps in order with its virtual clock.
     """
-    timers = "<head><script>window.requestAnimationFrame = (frame) => setTimeout(frame, 0);</script>"
     drive = """<script>
       for (const input of document.querySelectorAll("#viewer input:not([name=turning])")) input.click();
       document.querySelector("canvas").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
@@ -169,14 +183,62 @@ def test_a_browser_shows_it_without_complaint(page, tmp_path):
         document.body.dataset.shown = shown;
         document.body.dataset.wide = document.documentElement.scrollWidth > innerWidth;
       }, 500);</script></body>"""
-    file = tmp_path / "page.html"
-    file.write_text(page.replace("<head>", timers).replace("</body>", drive), encoding="utf-8")
+    shown = opened(page.replace("<head>", TIMERS).replace("</body>", drive), tmp_path)
+    assert int(re.search(r'data-shown="(\d+)"', shown)[1]) > 300
+    assert 'data-wide="false"' in shown
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no Chromium to open the page in: apt-get install chromium")
+def test_the_still_picture_stands_in_while_the_context_of_the_canvas_is_lost(page, tmp_path):
+    drive = """<script>
+      const canvas = document.querySelector("canvas"), still = document.querySelector(".still"), seen = [];
+      const context = canvas.getContext("webgl"), thief = context && context.getExtension("WEBGL_lose_context");
+      const note = () => seen.push([still, canvas].map((one) => getComputedStyle(one).display).join(" "));
+      note();
+      if (thief) thief.loseContext();
+      setTimeout(function () {
+        note();
+        if (thief) thief.restoreContext();
+        setTimeout(function () {
+          note();
+          document.body.dataset.seen = seen.join(", ");
+          if (!thief) return;
+          const pixels = new Uint8Array(4 * canvas.width * canvas.height);
+          context.readPixels(0, 0, canvas.width, canvas.height, context.RGBA, context.UNSIGNED_BYTE, pixels);
+          document.body.dataset.shown = pixels.filter((value, k) => k % 4 === 3 && value > 200).length;
+        }, 500);
+      }, 500);</script></body>"""
+    shown = opened(page.replace("<head>", TIMERS).replace("</body>", drive), tmp_path)
+    assert 'data-seen="none block, block none, none block"' in shown
+    assert int(re.search(r'data-shown="(\d+)"', shown)[1]) > 10_000
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no Chromium to print with: apt-get install chromium")
+def test_rulings_do_not_drown_the_creases_in_print(result, tmp_path):
+    pdfium = pytest.importorskip("pypdfium2")
+    whole = sheet_svg(result.structure, "mm")
+    kinds = [whole, *(re.sub(rf'<path class="(?:{names})"[^>]*>', "", whole) for names in ("ruling", "mountain|valley"))]
+    pages = "".join(f'<section style="break-after:page">{kind}</section>' for kind in kinds)
+    file, printed = tmp_path / "sheets.html", tmp_path / "sheets.pdf"
+    file.write_text(f"<style>{resource('page.css')}</style><main>{pages}</main>", encoding="utf-8")
+    subprocess.run([BROWSER, "--headless=new", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'profile'}",
+                    "--no-pdf-header-footer", f"--print-to-pdf={printed}", file.as_uri()], check=True, capture_output=True,
+                   timeout=120)
+    with pdfium.PdfDocument(printed) as document:
+        ink = [255 - np.asarray(document[k].render(scale=2, grayscale=True).to_pil(), dtype=float).mean() for k in range(3)]
+    rulings, creases = ink[0] - ink[1], ink[0] - ink[2]
+    assert 0 < rulings < creases
+
+
+def opened(page, folder):
+    """The page as a browser leaves it, which may not complain; skips where there is no WebGL."""
+    file = folder / "page.html"
+    file.write_text(page, encoding="utf-8")
     done = subprocess.run(
         [BROWSER, "--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
-         "--enable-unsafe-swiftshader", f"--user-data-dir={tmp_path / 'profile'}", "--virtual-time-budget=5000",
+         "--enable-unsafe-swiftshader", f"--user-data-dir={folder / 'profile'}", "--virtual-time-budget=5000",
          "--enable-logging=stderr", "--dump-dom", file.as_uri()], capture_output=True, text=True, timeout=120)
     assert [line for line in done.stderr.splitlines() if "CONSOLE" in line] == []
     if 'class="live"' not in done.stdout:
         pytest.skip("this Chromium has no WebGL")
-    assert int(re.search(r'data-shown="(\d+)"', done.stdout)[1]) > 300
-    assert 'data-wide="false"' in done.stdout
+    return done.stdout

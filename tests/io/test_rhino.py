@@ -133,7 +133,7 @@ SQUARE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
     ([], "holds no mesh, but nothing"),
     ([rhino3dm.LineCurve(rhino3dm.Point3d(0, 0, 0), rhino3dm.Point3d(1, 0, 0))], "no mesh, but 1 LineCurve.*QuadRemesh"),
     ([mesh_of(SQUARE, [(0, 1, 2, 3)]), mesh_of(SQUARE, [(0, 1, 2, 3)])], "holds 2 meshes"),
-    ([mesh_of(SQUARE, [(0, 1, 2), (0, 2, 3)])], "face 0 has 3 edges"),
+    ([mesh_of(SQUARE, [(0, 1, 2), (0, 2, 3)])], "face 1 has 3 edges"),
 ])
 def test_what_is_no_quad_mesh_is_one_sentence(tmp_path, shapes, sentence):
     model = rhino3dm.File3dm()

@@ -4,6 +4,7 @@ import io
 
 import numpy as np
 import pytest
+import shapely
 
 from plisse.draw.pages import printed_pages
 from plisse.draw.sheets import sheet_drawings
@@ -45,7 +46,7 @@ def test_dxf_passes_the_audit_and_has_its_layers_in_millimetres(plan, tmp_path, 
     space = document.modelspace()
     assert {"CUT", "MOUNTAIN", "VALLEY", "TEXT", "FLAP", "TICK"} <= {entity.dxf.layer for entity in space}
     kinds = {entity.dxftype() for entity in space if entity.dxf.layer == "CUT"}
-    assert {"polyline": "LWPOLYLINE", "spline": "SPLINE", "arc": "ARC"}[curves] in kinds
+    assert kinds == {"SPLINE" if curves == "spline" else "LWPOLYLINE"}
     words = [entity.dxf.text for entity in space if entity.dxftype() == "TEXT"]
     for joint in plan.joints:
         assert all(words.count(label) == 2 for label in joint.labels)
@@ -92,3 +93,48 @@ def test_places_that_cannot_be_written_are_refused_before_any_work(tmp_path, nam
     (tmp_path / "folder.svg").mkdir()
     with pytest.raises(PlisseError, match=word):
         require_place(tmp_path / name)
+
+
+def test_files_of_other_names_in_the_directory_stay(plan, tmp_path):
+    place = tmp_path / "out"
+    place.mkdir()
+    mine = ["sheet-metal.svg", "sheet-1-copy.svg", "my-sheet-1.svg", "sheet-.svg"]
+    for name in mine:
+        (place / name).write_text("mine")
+    files = write_sheets(sheet_drawings(plan), place)
+    assert {path.name for path in place.iterdir()} == {*mine, *(file.name for file in files)}
+
+
+def test_sheets_of_an_earlier_run_vanish_and_files_of_others_stay(plan, cones, tmp_path):
+    (tmp_path / "m-7.svg").write_text("mine")
+    write_sheets(sheet_drawings(plan, title="other"), tmp_path / "m.svg")
+    (tmp_path / "m-1.svg").rename(tmp_path / "m-8.svg")
+    several = write_sheets(sheet_drawings(plan, title="cones"), tmp_path / "m.svg")
+    assert {path.name for path in tmp_path.iterdir()} == {"m-7.svg", "m-8.svg", *(path.name for path in several)}
+    write_sheets(sheet_drawings(sheets(cones), title="cones"), tmp_path / "m.svg")
+    assert {path.name for path in tmp_path.iterdir()} == {"m-7.svg", "m-8.svg", "m.svg"}
+
+
+@pytest.mark.parametrize("curves", ["polyline", "spline", "arc"])
+def test_every_piece_is_one_closed_entity_and_one_closed_path(plan, tmp_path, curves):
+    ezdxf = pytest.importorskip("ezdxf")
+    svgelements = pytest.importorskip("svgelements")
+    drawings = sheet_drawings(plan, smoother=Smoother(curves, 0.3))
+    file, = write_sheets(drawings, tmp_path / "cones.dxf")
+    cut = [entity for entity in ezdxf.readfile(file).modelspace() if entity.dxf.layer == "CUT"]
+    assert len(cut) == len(plan.pieces) and all(entity.closed for entity in cut)
+    paths = [path for file in write_sheets(drawings, tmp_path / "cones.svg")
+             for group in svgelements.SVG.parse(str(file), ppi=25.4).select(lambda e: isinstance(e, svgelements.Group))
+             if group.id == "cut" for path in group if isinstance(path, svgelements.Path)]
+    assert len(paths) == len(plan.pieces)
+    assert all(isinstance(path[-1], svgelements.Close) and len(list(path.as_subpaths())) == 1 for path in paths)
+    lines = [line for drawing in drawings for line in drawing.layer("cut").lines]
+    for path, line in zip(paths, lines, strict=True):
+        assert path.length(error=1e-5) == pytest.approx(line.length, rel=1e-4)  # its inch has six digits
+        probes = np.array([(point.x, 160 - point.y) for point in (path.point(u) for u in np.linspace(0, 1, 40))])
+        assert shapely.distance(shapely.LineString(line.path), shapely.points(probes)).max() < 0.01  # chords of 3 degrees
+    from ezdxf.path import make_path
+
+    for entity, line in zip(cut, lines, strict=True):
+        points = np.array([(point.x, point.y) for point in make_path(entity).flattening(1e-3)])
+        assert np.hypot(*np.diff(points, axis=0).T).sum() == pytest.approx(line.length, rel=1e-3)  # flattened here

@@ -1,5 +1,6 @@
 """Whole surfaces: covered exactly and regularly, with numbers that an independent computation confirms."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -15,6 +16,7 @@ from plisse.measure.inclination import crease_inclinations
 from plisse.measure.planarity import planarity_defect
 from plisse.measure.regularity import regularity
 from plisse.measure.sectors import angle_defect
+from plisse.solve.candidate import centre_of
 from plisse.solve.flatten import flatten
 from plisse.solve.whole_surface import FOLDABLE, whole_surface
 from plisse.structure.grid import grid
@@ -74,6 +76,23 @@ def test_a_wave_is_covered_exactly_and_regularly_in_one_piece():
     assert found.notes[0].startswith("fitted inclination")
     assert sum(len(part) for part in found.inclination_by_crease.values()) == len(found.inclination)
     assert 0 <= found.overhanging < 1
+
+
+def test_labels_of_centres_are_in_model_coordinates():
+    best = solution().best
+    label = "centre ({:.4g}, {:.4g}, {:.4g})".format(*centre_of(best, GraphSurface(mesh())) + 0.0)
+    assert best.layout.label == label
+
+
+def test_overhang_is_told_plainly_and_upright_pleats_win_where_coverage_is_nearly_the_same():
+    found = solution()
+    said = [note for note in found.notes if note.startswith("overhang = false keeps creases open by 15° and prefers")]
+    assert bool(said) == (found.overhanging > 0)
+    leaning, upright = (replace(found.best, overhanging=share, coverage=0.98) for share in (0.5, 0.0))
+    assert leaning.rank < upright.rank
+    assert replace(leaning, coverage=0.985).rank < upright.rank
+    assert replace(leaning, coverage=0.995).rank > upright.rank
+    assert replace(leaning, upright=False).rank == replace(upright, upright=False).rank
 
 
 def test_the_development_of_a_whole_surface_is_isometric():

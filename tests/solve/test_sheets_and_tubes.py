@@ -15,6 +15,7 @@ from plisse.geometry.parametric import ParametricSurface
 from plisse.measure.planarity import planarity_defect
 from plisse.measure.regularity import regularity
 from plisse.measure.sectors import angle_defect
+from plisse.solve.candidate import centre_of
 from plisse.solve.cutting import best_cut
 from plisse.solve.flatten import flatten
 from plisse.solve.whole_surface import FOLDABLE, whole_surface
@@ -104,7 +105,8 @@ def test_a_centre_stands_for_the_nearest_place_of_a_sheet():
     centre = surface.to_space(np.array([[27.0, 3.0, 1.5]]))
     np.testing.assert_allclose(surface.to_plane(centre)[0], [27, 3, 1.5], atol=1e-8)
     found = whole_surface(vault(), surface, width=WIDTH, centre=centre[0], seams=0)
-    assert found.best.layout.label.startswith("centre (27, 3)")
+    np.testing.assert_allclose(found.best.layout.centre, [27, 3], atol=1e-8)
+    np.testing.assert_allclose(centre_of(found.best, surface), surface.to_space(np.array([[27.0, 3.0, 0.0]]))[0], atol=1e-8)
 
 
 @pytest.mark.slow

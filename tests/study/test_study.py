@@ -192,6 +192,7 @@ def test_two_hundred_designs_killed_three_times_are_each_done_once(tmp_path):
     kill_and_go_on(curved(tmp_path, 200), tmp_path / "out", 200, [20, 80, 150], workers=2)
 
 
+@pytest.mark.slow
 def test_a_worker_killed_in_the_middle_costs_only_a_retry(tmp_path):
     killed = []
 
@@ -217,6 +218,7 @@ def test_designs_over_their_time_are_rows_and_a_retry_makes_them(tmp_path, study
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGINT for one process")
+@pytest.mark.slow
 def test_an_interrupted_study_ends_in_a_sentence_and_leaves_nothing_running(tmp_path):
     import signal
 

@@ -215,3 +215,14 @@ def test_separating_axes_agree_with_manifold3d_on_random_solids():
     expected = {(a, b) for a, b in every.tolist() if abs((bodies[a] ^ bodies[b]).volume()) > 1e-12}
     assert found == expected
     assert 5 < len(found) < len(every) / 2
+
+
+def test_the_largest_thickness_is_the_same_whoever_says_it():
+    nearly_closed = alternating_cones(sector=2 * np.pi - 0.002)
+    said = nearly_closed.plates(1e-4).largest_thickness
+    assert said < nearly_closed.plates(1e-4).cut.largest_thickness
+    for thickness in (1.01 * said, 1e3 * nearly_closed.diagonal):
+        with pytest.raises(InvalidDesign, match="largest possible thickness is") as caught:
+            nearly_closed.plates(thickness)
+        assert float(str(caught.value).split()[-1]) == pytest.approx(said, rel=1e-4)  # five digits are printed
+    nearly_closed.plates(0.9999 * said)

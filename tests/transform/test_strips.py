@@ -6,6 +6,7 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from plisse.assess_strips import assess_strips
 from plisse.errors import Infeasible, InvalidStructure
 from plisse.geometry.formulas import Sphere
 from plisse.geometry.height_field import HeightField
@@ -213,6 +214,9 @@ def test_strips_are_numbered_like_their_curves_and_lie_apart_on_the_sheet():
     found = arranged([Lane(helix()), straight, Lane(wave(60, 1, 1))], 2.0)
     assert found.numbers == (1, 3)
     assert "strip 2 was left out" in found.lost[0]
+    report = assess_strips(found)
+    assert report.status == "approximate"
+    assert report.reasons == list(found.lost)
     structure = found.structure
     assert structure.topology.components == 2
     first = structure.topology.vertex_count - found.strips[1].structure.topology.vertex_count

@@ -38,6 +38,7 @@ def progress(quiet: bool) -> Iterator[Callable[[str, float], None]]:
 def summarise(report: Report, directory: Path, *, title: str) -> None:
     """Print status, numbers, reasons and files of a finished design."""
     rows = _measures(report)
+    rows += _over_surface(report)
     if report.crease_deviation is not None:
         rows.append(("distance from guides", f"max {report.crease_deviation.max:.2f}   "
                                              f"mean {report.crease_deviation.mean:.2f} amplitudes"))
@@ -49,6 +50,19 @@ def summarise(report: Report, directory: Path, *, title: str) -> None:
     rows.append(("seconds", f"{report.seconds.get('total', 0.0):.2f}"))
     rows.append(("files", str(directory)))
     _panel(title, report.status, rows, report.reasons + report.warnings)
+
+
+def _over_surface(report: Report) -> list[tuple[str, str]]:
+    """How a structure lies over its reference surface."""
+    rows = []
+    if report.coverage is not None:
+        counts = ((report.seams, "seam"), (report.holes or 0, "hole"))
+        apart = [f"{count} {name}{'s' * (count > 1)}" for count, name in counts if count]
+        rows.append(("surface covered", "   ".join([f"{100 * report.coverage:.1f} %", *apart])))
+    if report.deviation is not None:
+        rows.append(("mid-surface off by", f"max {report.deviation.max_amplitudes:.2f}   "
+                                           f"mean {report.deviation.mean_amplitudes:.2f} amplitudes"))
+    return rows
 
 
 def show_table(rows: list[Row]) -> None:

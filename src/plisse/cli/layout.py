@@ -89,7 +89,7 @@ def design_text(recipe: SurfaceDesign, candidate: Candidate, surface: GraphSurfa
     centre = section.centre if section.centre is not None else centre_of(candidate, surface)
     if centre is not None:
         lines.append(f"centre = {[float(value) for value in centre]}  # rows run around this point")
-    lines.append(f"overhang = {'true' if section.overhang else 'false'}  # false: upright pleats are preferred, and creases open by 15 degrees")
+    lines.append(f"overhang = {'true' if section.overhang else 'false'}  # false prefers upright pleats, open by 15 degrees")
     lines += [f"side = \"{section.side}\""] if section.side != "below" else []
     lines += ["boundary = true"] if section.boundary else []
     if candidate.seams or section.seams is not None:

@@ -97,7 +97,7 @@ def _nested(made: Plates, model: Model, material: str, kerf: float) -> list[Draw
 def _write(made: Plates, movement: HingedRange | None, model: Model, target: Path, nested: list[Drawing]) -> dict:
     """The report without its table; all files are written, into the target or its directory, together or not at all."""
     from plisse.draw.plates import film, write_plates_picture
-    from plisse.io.atomic import require_writable, written_together
+    from plisse.io.atomic import numbered_files, require_writable, written_together
     from plisse.io.plate_solids import write_plate_solids, write_solid_stl
     from plisse.io.plate_table import plates_document, write_plates_csv, write_plates_json
     from plisse.io.svg import write_svg
@@ -107,8 +107,8 @@ def _write(made: Plates, movement: HingedRange | None, model: Model, target: Pat
     directory, stem = (target.parent, target.stem) if single else (target, "plates")
     names = [target.name if single else "plates.obj", *(stem + suffix for suffix in (".csv", ".json", ".png", ".svg"))]
     require_writable(directory, names)
-    former = [file.name for file in directory.glob(f"{stem}-sheet-*.svg")]
-    former += [] if single else [file.name for file in target.glob("plate_*.stl")]
+    former = numbered_files(directory, f"{stem}-sheet-", ".svg")
+    former += [] if single else numbered_files(target, "plate_", ".stl")
     title = f"plates of {model.title}"
     document = plates_document(made, movement, units=model.units, title=title)
     with written_together(directory, owned=former) as stage:

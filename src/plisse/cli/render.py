@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 __all__ = ["parse_size", "render"]
 
-SMALLEST, LARGEST, MOST_FRAMES = 64, 8000, 360
+SMALLEST, LARGEST, FRAMES, MOST_FRAMES = 64, 8000, 36, 360
 
 
 def render(
@@ -27,7 +27,7 @@ def render(
     creases: bool = True,
     transparent: Annotated[bool, Parameter(negative=())] = False,
     ambient: bool | None = None,
-    frames: int = 36,
+    frames: int | None = None,
     quiet: Annotated[bool, Parameter(negative=())] = False,
 ) -> int:
     """Draw a structure like photographed paper, or in the colours of a quality, as .png or as a turning .gif.
@@ -51,7 +51,7 @@ def render(
     ambient
         Cast rays for soft light in the folds and on the ground; done where plisse[render] is installed.
     frames
-        Pictures in one turn.
+        Pictures in one turn of a .gif; 36 if left out.
     quiet
         Print nothing.
     """
@@ -66,6 +66,9 @@ def render(
         raise PlisseError(f"{output.name} is no picture that plisse draws; give a .png, or a .gif that turns")
     if turning and transparent:
         raise InvalidDesign("a .gif has no soft transparency; leave --transparent out or give a .png")
+    if not turning and frames is not None:
+        raise InvalidDesign("--frames is for a .gif that turns; leave it out or give a .gif")
+    frames = FRAMES if frames is None else frames
     if not 2 <= frames <= MOST_FRAMES:
         raise InvalidDesign(f"--frames {frames} is outside 2 to {MOST_FRAMES}")
     pixels = parse_size(size or ("720x540" if turning else "1600x1200"))

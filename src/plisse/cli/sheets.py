@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 
 __all__ = ["material_size", "sheets"]
 
+SMALL = 1.5
+COARSEST = 0.1
+
 
 def sheets(
     structure: Path,
@@ -75,7 +78,7 @@ def sheets(
         Print nothing.
     """
     from plisse.draw.pages import fits_page, printed_pages
-    from plisse.draw.sheets import sheet_drawings
+    from plisse.draw.sheets import legend_of, sheet_drawings
     from plisse.draw.smoothing import Smoother
     from plisse.draw.strokes import MACHINE, PRINT
     from plisse.errors import PlisseError
@@ -93,15 +96,18 @@ def sheets(
     model = developed(read_model(structure))
     plan = cut_up(model.structure, material=sheet, units=model.units, scale=_scale(model, scale, size), kerf=kerf,
                   joint=joint, tab=tab, margin=margin, spacing=spacing, nesting=nest)
+    if curves != "polyline":
+        _require_fine(tolerance, plan)
     printed = page is not None or output.suffix.lower() == ".pdf"
     smoother = Smoother(curves, tolerance)
     drawings = sheet_drawings(plan, title=model.title, score=score, smoother=smoother, strokes=PRINT if printed else MACHINE,
                               captioned=page is None or fits_page(sheet, page))
+    small = sum(0 < text.height < SMALL for drawing in drawings for text in drawing.layer("text").texts)
     if page is not None:
-        drawings = printed_pages(drawings, page)
+        drawings = printed_pages(drawings, page, legend_of(drawings, score))
     files = write_sheets(drawings, output)
     if not quiet:
-        _show(plan, smoother, files, len(drawings) if page else 0)
+        _show(plan, smoother, files, len(drawings) if page else 0, small)
     return 0
 
 
@@ -115,6 +121,18 @@ def material_size(material: str) -> tuple[float, float]:
     except ValueError:
         raise PlisseError(f"--material {material!r} is no size; give width x height in mm, for example 600x300") from None
     return width, height
+
+
+def _require_fine(tolerance: float, plan: Sheets) -> None:
+    """Nothing; raises PlisseError for a tolerance of more than a tenth of the width of strips."""
+    import numpy as np
+
+    from plisse.errors import PlisseError
+
+    edges = plan.paper.topology.edges
+    most = COARSEST * float(np.median(plan.paper.edge_lengths[~edges.is_crease]))
+    if tolerance > 1.06 * most:  # the sentence rounds to two digits
+        raise PlisseError(f"--tolerance {tolerance:g} is more than a tenth of the width of strips; give up to {most:.2g} mm")
 
 
 def _scale(model: Model, scale: float | None, size: float | None) -> float:
@@ -133,7 +151,7 @@ def _scale(model: Model, scale: float | None, size: float | None) -> float:
     return size / (float(np.ptp(model.structure.vertices, axis=0).max()) * MILLIMETRES[model.units])
 
 
-def _show(plan: Sheets, smoother: Smoother, files: list[Path], pages: int) -> None:
+def _show(plan: Sheets, smoother: Smoother, files: list[Path], pages: int, small: int) -> None:
     print(f"{_counted(len(plan.pieces), 'piece')} on {_counted(plan.count, 'sheet')} of {plan.material[0]:g} × "
           f"{plan.material[1]:g} mm, {100 * plan.use:.0f} % used" + (f"; {_counted(pages, 'page')}" if pages else ""))
     if plan.joints:
@@ -144,6 +162,9 @@ def _show(plan: Sheets, smoother: Smoother, files: list[Path], pages: int) -> No
     if smoother.kept:
         print(f"· {_counted(smoother.kept, 'line')} of straight edges: no {smoother.kind} follows within "
               f"{smoother.tolerance:g} mm; raise --tolerance, or pattern.samples of the design")
+    if small:
+        print(f"· {_counted(small, 'number')} less than {SMALL:g} mm high, because there is no room for more; "
+              "a larger scale or fewer samples help")
     for note in plan.notes:
         print(f"· {note}")
     for file in files:

@@ -1,5 +1,6 @@
 """Qualities of a structure as colours: planarity, angle sums, principal defect, openings, deviation (Figs 17, 19, 21)."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -19,9 +20,6 @@ from plisse.structure.topology import Topology
 
 __all__ = ["NAMES", "ColourMap", "colour_maps", "deviation_from_guides", "deviation_from_surface", "deviation_of"]
 
-NAMES = ("planarity", "angle", "principal", "opening", "deviation")
-
-
 @dataclass(frozen=True, eq=False)
 class ColourMap:
     """Values at all corners (C,) in the order of `topology.corners`, nan where there is none, and their scale."""
@@ -39,6 +37,11 @@ class ColourMap:
         return np.where(np.isnan(shares)[..., None], colours.rgb(colours.UNKNOWN), paint(np.nan_to_num(shares)))
 
     @property
+    def label(self) -> str:
+        """The title up to its colon: the few words of a button."""
+        return self.title.partition(":")[0]
+
+    @property
     def largest(self) -> float:
         """The largest value."""
         return float(np.nanmax(self.values, initial=0.0))
@@ -51,19 +54,37 @@ class ColourMap:
 
 def colour_maps(structure: PleatedStructure, deviation: ColourMap | None = None) -> dict[str, ColourMap]:
     """All maps that the structure allows, by name; `deviation` needs to know what the structure should be near to."""
-    topology, vertices = structure.topology, structure.vertices
-    corner = topology.corners
-    planarity = planarity_defect(topology, vertices)[corner.face]
-    angle = np.abs(angle_defect(topology, vertices))[corner.vertex]
-    principal = principal_defect(topology, vertices)[corner.vertex]
-    maps = [ColourMap("planarity", "planarity: distance of diagonals / length", planarity, defect_scale(planarity.max())),
-            ColourMap("angle", "angle sum: |Σω − 2π| in radians", angle, defect_scale(angle.max())),
-            ColourMap("principal", "principal defect: |ω1 + ω3 − π| in radians", principal, defect_scale(principal.max()))]
+    maps = [*(make(structure) for make in MAPS.values()), deviation]
+    return {found.name: found for found in maps if found is not None}
+
+
+def _planarity(structure: PleatedStructure) -> ColourMap:
+    values = planarity_defect(structure.topology, structure.vertices)[structure.topology.corners.face]
+    return ColourMap("planarity", "planarity: distance of diagonals / length", values, defect_scale(values.max()))
+
+
+def _angle(structure: PleatedStructure) -> ColourMap:
+    values = np.abs(angle_defect(structure.topology, structure.vertices))[structure.topology.corners.vertex]
+    return ColourMap("angle", "angle sum: |Σω − 2π| in radians", values, defect_scale(values.max()))
+
+
+def _principal(structure: PleatedStructure) -> ColourMap:
+    values = principal_defect(structure.topology, structure.vertices)[structure.topology.corners.vertex]
+    return ColourMap("principal", "principal defect: |ω1 + ω3 − π| in radians", values, defect_scale(values.max()))
+
+
+def _opening(structure: PleatedStructure) -> ColourMap | None:
     openings = _openings(structure)
-    if np.isfinite(openings).any():
-        scale = linear_scale(float(np.nanmin(openings)), float(np.nanmax(openings)), "°", least=5.0)
-        maps.append(ColourMap("opening", "opening angle of creases, 180° is flat", openings, scale, "opening"))
-    return {found.name: found for found in (*maps, *([] if deviation is None else [deviation]))}
+    if not np.isfinite(openings).any():
+        return None
+    scale = linear_scale(float(np.nanmin(openings)), float(np.nanmax(openings)), "°", least=5.0)
+    return ColourMap("opening", "opening angle of creases: 180° is flat", openings, scale, "opening")
+
+
+# a map has the name of its entry, and is None where the structure has nothing to show
+MAPS: dict[str, Callable[[PleatedStructure], ColourMap | None]] = {
+    "planarity": _planarity, "angle": _angle, "principal": _principal, "opening": _opening}
+NAMES = (*MAPS, "deviation")
 
 
 def deviation_of(result: Result) -> ColourMap | None:
@@ -83,7 +104,7 @@ def deviation_from_surface(topology: Topology, distances: np.ndarray, amplitude:
     """Distances (F,) of faces from a reference surface in amplitudes; None where they are not of these faces."""
     if len(distances) != topology.face_count:
         return None
-    return _deviation("deviation of the mid-surface from the reference in amplitudes",
+    return _deviation("deviation: of the mid-surface from the reference in amplitudes",
                       (np.abs(distances) / amplitude)[topology.corners.face])
 
 
@@ -95,7 +116,7 @@ def deviation_from_guides(structure: PleatedStructure, pattern: Pattern, amplitu
         return None
     guides = zigzag_curves(pattern.resampled(samples), amplitude)
     distances = crease_deviation(structure.vertices.reshape(pattern.creases, samples, 3), guides, pattern.closed)
-    return _deviation("deviation of creases from the pattern in amplitudes",
+    return _deviation("deviation: of creases from the pattern in amplitudes",
                       (distances.ravel() / amplitude)[topology.corners.vertex])
 
 

@@ -21,7 +21,8 @@ DESIGNED = 100.0
 def write_motion_strip(motion: Motion, path: str | Path, *, title: str = "") -> None:
     """Write a PNG of some states of the motion, see `shown_percents`, at one scale and from one side.
 
-    States beyond the free range are lighter, and say whether they cut through themselves. A structure with one inner vertex is shown with the cone that touches its four faces (Fig. 10).
+    States beyond the free range are lighter, and say whether they cut through themselves. A structure with one inner
+    vertex is shown with the cone that touches its four faces (Fig. 10).
     """
     motion = motion.at(shown_percents(motion.percent))
     states = [PleatedStructure(motion.topology, vertices) for vertices in motion.vertices]

@@ -7,7 +7,7 @@ import numpy as np
 
 from plisse.measure.regularity import MIN_SECTOR, OPENING_RANGE
 from plisse.measure.verdict import EXACT, FAR
-from plisse.result import Report
+from plisse.result import Report, Sheet
 
 __all__ = ["Entry", "entries", "summary"]
 
@@ -26,18 +26,24 @@ class Entry(NamedTuple):
 
 def summary(report: Report) -> str:
     """One sentence for people who have never heard of the paper."""
-    what = {"exact": "Every face is flat and every vertex lies flat to the last digit: this shape folds from one sheet.",
+    return {"exact": "Every face is flat and every vertex lies flat to the last digit: this shape folds "
+                     f"{_material(report.development)}.",
             "approximate": "This shape is close to one that folds from a sheet, but not exactly.",
             "infeasible": "This shape cannot be folded as it is."}[report.status]
-    if report.status == "exact" and report.development is not None and report.development.pieces > 1:
-        what = what.replace("from one sheet", f"from {report.development.pieces} pieces of sheet")
-    return what
 
 
 def entries(report: Report) -> list[Entry]:
     """All measures that the report has."""
     faces = Entry("faces", f"{report.faces:,}", (report.faces,), "", f"flat pieces over {report.vertices:,} vertices")
     return [faces, *_defects(report), *_angles(report), *_deviations(report), *_faults(report), *_sheet(report)]
+
+
+def _material(sheet: Sheet | None) -> str:
+    if sheet is None:
+        return "exactly"
+    if sheet.overlaps:
+        return "exactly, from a sheet cut apart where it overlaps itself"
+    return f"from {sheet.pieces} pieces of sheet" if sheet.pieces > 1 else "from one sheet"
 
 
 def _defects(report: Report) -> Iterator[Entry]:

@@ -7,10 +7,10 @@ from plisse.draw.drawing import crease_pattern
 from plisse.draw.shapes import Line
 from plisse.structure.pleated import PleatedStructure
 
-__all__ = ["history_svg", "sheet_svg"]
+__all__ = ["history_svg", "key_svg", "measured", "sheet_svg"]
 
 STYLES = {"ruling": (colours.RULING, 0.35, ""), "boundary": (colours.INK, 1.0, ""), "flat": (colours.CAPTION, 0.8, "2 3"),
-          "valley": (colours.VALLEY, 1.1, "7 4"), "mountain": (colours.MOUNTAIN, 1.1, "")}
+          "valley": (colours.VALLEY, 1.1, "7 4"), "mountain": (colours.MOUNTAIN, 1.1, "12 3 2 3")}
 WIDTH, HEIGHT, LEFT, BELOW = 460, 300, 56, 44
 
 
@@ -36,9 +36,21 @@ def sheet_svg(structure: PleatedStructure, units: str) -> str:
             f'aria-label="The flat sheet with its creases">\n{inside}\n</svg>')
 
 
+def key_svg(layer: str) -> str:
+    """A short line as the sheet draws that layer."""
+    colour, _, dash = STYLES[layer]
+    return (f'<svg class="key" viewBox="0 0 44 4" aria-hidden="true"><path class="{layer}" d="M0,2 44,2" stroke="{colour}" '
+            f'stroke-width="2" stroke-dasharray="{dash}"/></svg>')
+
+
+def measured(history: list[float]) -> np.ndarray:
+    """The values of a history that have a place on a chart by powers of ten."""
+    return np.array([value for value in history if np.isfinite(value) and value > 0])
+
+
 def history_svg(history: list[float]) -> str:
-    """The largest residual after every step, by powers of ten; empty without history."""
-    values = np.array([value for value in history if np.isfinite(value) and value > 0])
+    """The values of a history one after the other, by powers of ten; empty where there are not two."""
+    values = measured(history)
     if len(values) < 2:
         return ""
     powers = np.log10(values)
@@ -57,8 +69,8 @@ def history_svg(history: list[float]) -> str:
     dots = "".join(f'<circle cx="{a:.1f}" cy="{b:.1f}" r="3.2" fill="{colours.VALLEY}"/>' for a, b in zip(x, y, strict=True))
     line = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x, y, strict=True))
     parts.append(f'<polyline points="{line}" fill="none" stroke="{colours.VALLEY}" stroke-width="1.6"/>{dots}'
-                 f'<text x="{(LEFT + WIDTH) / 2:.0f}" y="{HEIGHT - 6}" text-anchor="middle">step</text>')
-    return (f'<svg class="chart" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="Largest residual after every step">'
+                 f'<text x="{(LEFT + WIDTH) / 2:.0f}" y="{HEIGHT - 6}" text-anchor="middle">measurement</text>')
+    return (f'<svg class="chart" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="How the residual fell">'
             + "\n".join(parts) + "</svg>")
 
 

@@ -4,21 +4,24 @@ from dataclasses import replace
 
 import numpy as np
 
-from plisse.draw.captions import caption
+from plisse.draw.captions import HEIGHT, LINE, caption
 from plisse.draw.drawing import Drawing, Layer
-from plisse.draw.shapes import Line, Shape, Spline, Text
+from plisse.draw.shapes import Bulged, Line, Shape, Spline, Text
 from plisse.fabricate.labels import CHARACTER
 from plisse.fabricate.tiling import BORDER, Tile, Tiling, tiling
 
 __all__ = ["fits_page", "printed_pages"]
 
 CROSS, RING = 4.0, 1.5
+BAR = 100.0
 
 
-def printed_pages(drawings: list[Drawing], paper: tuple[float, float]) -> list[Drawing]:
+def printed_pages(drawings: list[Drawing], paper: tuple[float, float],
+                  folds: dict[str, tuple[float, ...]] | None = None) -> list[Drawing]:
     """Pages of `paper` (width, height) mm at 1:1: drawings that fit stay whole, others are tiled.
 
-    Tiles without lines are left out. Texts stand on every page that shows them whole.
+    Tiles without lines are left out. Texts stand on every page that shows them whole. The first tile of all bears the
+    title of its drawing and explains `folds`, the dashes of layers.
     """
     pages = []
     for number, drawing in enumerate(drawings, 1):
@@ -29,7 +32,8 @@ def printed_pages(drawings: list[Drawing], paper: tuple[float, float]) -> list[D
         for tile in layout.tiles:
             layers = _cropped(drawing, layout, tile)
             if any(layer.lines for layer in layers):
-                pages.append(_page(drawing, layout, tile, layers, number))
+                page = _page(drawing, layout, tile, layers, number)
+                pages.append(page if pages else _introduced(page, drawing.title, layout, folds or {}))
     return pages
 
 
@@ -49,7 +53,7 @@ def _centred(drawing: Drawing, paper: tuple[float, float]) -> Drawing:
 
 
 def _moved(shape: Shape, shift: np.ndarray) -> Shape:
-    if isinstance(shape, Line):
+    if isinstance(shape, Line | Bulged):
         return replace(shape, points=shape.points + shift)
     if isinstance(shape, Spline):
         return replace(shape, controls=shape.controls + shift)
@@ -75,6 +79,19 @@ def _page(drawing: Drawing, layout: Tiling, tile: Tile, layers: list[Layer], num
     others = [layer for layer in layers if layer.name != "text"]
     text = replace(words, lines=(*words.lines, *lines), texts=(*words.texts, *said["text"][1]))
     return Drawing(f"{drawing.title} row {tile.row} column {tile.column}", layout.page, (text, *others))
+
+
+def _introduced(page: Drawing, title: str, layout: Tiling, folds: dict[str, tuple[float, ...]]) -> Drawing:
+    """The page with the title of the drawing above its scale bar and a legend of the folds beside it."""
+    legend = caption((BORDER, BORDER), layout.window[0], [], folds)
+    names = [text for text in legend["text"][1] if text.words in folds]
+    room = int(BAR / (CHARACTER * HEIGHT))
+    words = title if len(title) <= room else title[:room - 1] + "…"
+    head = Text(words, (BORDER, BORDER + LINE), HEIGHT)
+    layers = tuple(replace(layer, lines=(*layer.lines, *legend.get(layer.name, ((), ()))[0] * (layer.name in folds)),
+                           texts=(*layer.texts, head, *names) if layer.name == "text" else layer.texts)
+                   for layer in page.layers)
+    return replace(page, layers=layers)
 
 
 def _cropped(drawing: Drawing, layout: Tiling, tile: Tile) -> list[Layer]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from plisse.geometry.bezier import sampled
 
-__all__ = ["Arc", "Line", "Shape", "Spline", "Text"]
+__all__ = ["Arc", "Bulged", "Line", "Shape", "Spline", "Text", "straight_controls"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,6 +87,56 @@ class Arc:
         return self.radius * (self.end - self.start)
 
 
+@dataclass(frozen=True, eq=False)
+class Bulged:
+    """A closed line of arcs and straight stretches: from each of the points (N, 2) to the next one, the last to the first.
+
+    `bulges` (N,) are tangents of a quarter of what stretches turn by, positive to the left and 0 for straight ones.
+    """
+
+    points: np.ndarray
+    bulges: np.ndarray
+    closed = True
+
+    @property
+    def radii(self) -> np.ndarray:
+        """Radius (N,) of every stretch in millimetres; infinite for straight ones."""
+        chord = np.hypot(*(np.roll(self.points, -1, axis=0) - self.points).T)
+        sine = np.abs(np.sin(2 * np.arctan(self.bulges)))
+        return np.divide(chord, 2 * sine, where=sine > 0, out=np.full(len(chord), np.inf))
+
+    @property
+    def controls(self) -> np.ndarray:
+        """The line as cubic Bézier pieces (3k + 1, 2), of at most 10 degrees each on arcs."""
+        ends = np.roll(self.points, -1, axis=0)
+        pieces = [self._stretch(*stretch) for stretch in zip(self.points, ends, self.bulges, self.radii, strict=True)]
+        return np.concatenate([self.points[:1], *(piece[1:] for piece in pieces)])
+
+    @property
+    def path(self) -> np.ndarray:
+        """Points (N, 2) along the line, on arcs one every 3 degrees or closer; the first is repeated at the end."""
+        return sampled(self.controls, 4)
+
+    @property
+    def length(self) -> float:
+        """Length in millimetres."""
+        chord = np.hypot(*(np.roll(self.points, -1, axis=0) - self.points).T)
+        half = 2 * np.arctan(np.abs(self.bulges))
+        return float((chord / np.sinc(half / np.pi)).sum())
+
+    @staticmethod
+    def _stretch(a: np.ndarray, b: np.ndarray, bulge: float, radius: float) -> np.ndarray:
+        """Controls (3k + 1, 2) of one stretch."""
+        if bulge == 0:
+            return straight_controls(np.array([a, b]))
+        chord = b - a
+        centre = (a + b) / 2 + (1 - bulge**2) / (4 * bulge) * np.array([-chord[1], chord[0]])
+        first = a if bulge > 0 else b
+        start = float(np.arctan2(*(first - centre)[::-1]))
+        controls = Arc((float(centre[0]), float(centre[1])), radius, start, start + 4 * abs(np.arctan(bulge))).controls
+        return controls if bulge > 0 else controls[::-1]
+
+
 @dataclass(frozen=True)
 class Text:
     """Words whose capitals are `height` millimetres high, turned by `angle` radians about their anchor `at`."""
@@ -103,7 +153,14 @@ class Text:
         return self.height / 0.718
 
 
-Shape = Line | Spline | Arc
+Shape = Line | Spline | Arc | Bulged
+
+
+def straight_controls(points: np.ndarray) -> np.ndarray:
+    """A polyline (N, 2) as straight Bézier pieces (3N − 2, 2)."""
+    step = np.diff(points, axis=0)[:, None]
+    along = points[:-1, None] + step * np.array([0.0, 1 / 3, 2 / 3])[:, None]
+    return np.concatenate([along.reshape(-1, 2), points[-1:]])
 
 
 def _length(path: np.ndarray) -> float:

@@ -16,7 +16,7 @@ from plisse.fabricate.pieces import Piece, Placement
 from plisse.fabricate.plan import Sheets
 from plisse.fabricate.scores import PATTERNS, Score, dash_spans
 
-__all__ = ["sheet_drawings"]
+__all__ = ["legend_of", "sheet_drawings"]
 
 NAMES = {"M": "mountain", "V": "valley", "F": "flat", "R": "flap"}
 ORDER = ("text", "tick", "flat", "flap", "mountain", "valley", "cut")  # cut last: pieces move once they are free
@@ -49,12 +49,18 @@ def sheet_drawings(plan: Sheets, *, title: str = "", score: Score = "dashed", sm
     return out
 
 
+def legend_of(drawings: list[Drawing], score: Score) -> dict[str, tuple[float, ...]]:
+    """Dashes of the layers mountain and valley, as far as some drawing has any."""
+    return {NAMES[letter]: PATTERNS[score][letter] for letter in "MV"
+            if any(drawing.layer(NAMES[letter]).lines for drawing in drawings)}
+
+
 def _draw(plan: Sheets, piece: Piece, placement: Placement, patterns: dict[str, tuple[float, ...]], smoother: Smoother,
           shapes: dict[str, list[Shape]]) -> list[Text]:
     """Add the lines of a piece to those of its sheet; its labels."""
     paper, points = plan.paper, placement.apply(plan.paper.points)
     for ring in piece.rings:
-        shapes["cut"] += smoother.shapes(placement.apply(ring), closed=True)
+        shapes["cut"].append(smoother.outline(placement.apply(ring)))
     lines = []
     for fold in fold_lines(paper, piece) + flap_lines(paper, piece, plan.joints):
         path = points[np.append(fold.vertices, fold.vertices[:1]) if fold.closed else fold.vertices]

@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from plisse.draw.shapes import Arc, Line, Shape, Spline
+from plisse.draw.shapes import Arc, Bulged, Line, Shape, Spline, straight_controls
 from plisse.geometry.arcs import arcs_along
 from plisse.geometry.bezier import bezier_through, sampled
 from plisse.geometry.vectors import cross_flat, dot, norm
@@ -45,6 +45,17 @@ class Smoother:
             else:
                 out += self._spline(run) if self.kind == "spline" else self._arcs(run)
         return _joined(out)
+
+    def outline(self, points: np.ndarray) -> Shape:
+        """One closed shape that follows a polyline (N, 2) all around."""
+        shapes = self.shapes(points, closed=True)
+        lines = [shape for shape in shapes if isinstance(shape, Line)]
+        if len(lines) == len(shapes):
+            return Line(np.concatenate([line.path[:-1] for line in lines]), closed=True)
+        if self.kind == "spline":
+            pieces = [shape.controls if isinstance(shape, Spline) else straight_controls(shape.path) for shape in shapes]
+            return Spline(np.concatenate([pieces[0][:1], *(piece[1:] for piece in pieces)]), closed=True)
+        return _bulged(shapes, _runs(points, True)[0][0])
 
     def _arcs(self, run: np.ndarray) -> list[Shape]:
         out: list[Shape] = []
@@ -106,6 +117,22 @@ def _distance(probes: np.ndarray, curve: np.ndarray) -> float:
     from shapely import LineString, distance, points
 
     return float(distance(points(probes), LineString(curve)).max())
+
+
+def _bulged(shapes: list[Shape], start: np.ndarray) -> Bulged:
+    """Lines and arcs end to end as one closed line from `start`; arcs turn right where they are met at their end."""
+    points, bulges, at = [], [], start
+    for shape in shapes:
+        path, bulge = shape.path, 0.0
+        if isinstance(shape, Arc):
+            bulge = float(np.tan((shape.end - shape.start) / 4))
+            path = path[[0, -1]]
+            if norm(path[1] - at) < norm(path[0] - at):
+                path, bulge = path[::-1], -bulge
+        points.append(path[:-1])
+        bulges += [bulge] * (len(path) - 1)
+        at = path[-1]
+    return Bulged(np.concatenate(points), np.array(bulges))
 
 
 def _joined(shapes: list[Shape]) -> list[Shape]:

@@ -82,7 +82,9 @@ def _facts(arrangement: Arrangement, units: str) -> list[str]:
     angles = np.degrees(np.concatenate([part for part in arrangement.inclinations if part is not None] or [np.empty(0)]))
     facts = [f"{len(arrangement.strips)} strips that unfold straight",
              f"{max(strip.width for strip in arrangement.strips):.3g} {units} wide"]
-    return facts + ([f"at {degrees_text(float(angles.min()), float(angles.max()), 1)} to the surface"] if len(angles) else [])
+    if len(angles):
+        facts.append(f"at {degrees_text(float(angles.min()), float(angles.max()), 1)} to the surface")
+    return facts
 
 
 def _bodies(arrangement: Arrangement, surface: ReferenceMesh | None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -53,14 +53,28 @@ class Placement:
 def pieces_from(paper: Paper, masks: list[np.ndarray], tabs: tuple[Tab, ...], kerf: float) -> tuple[Piece, ...]:
     """The pieces as they are cut, given their faces as masks.
 
-    Raises Infeasible where the kerf is wider than a piece.
+    Flaps that grow together around a hole, where a cut as wide as the kerf cannot go, are left out. Raises Infeasible
+    where the kerf is wider than a piece.
     """
     out = []
     for k, mask in enumerate(masks):
-        own = tuple(tab for tab in tabs if tab.piece == k)
-        outline = _outline(paper.polygon(mask), own, kerf, k + 1)
+        own, polygon = tuple(tab for tab in tabs if tab.piece == k), paper.polygon(mask)
+        outline = _outline(polygon, own, kerf, k + 1)
+        if kerf and own:
+            own, outline = _without_islands(polygon, own, outline, kerf, k + 1)
         out.append(Piece(k + 1, mask, float(paper.face_areas[mask].sum()), own, outline))
     return tuple(out)
+
+
+def _without_islands(polygon, tabs: tuple[Tab, ...], outline, kerf: float, number: int):
+    """The flaps beside no hole that only they make, and the outline with them."""
+    from shapely import Polygon, intersects
+
+    holes = [Polygon(ring) for ring in outline.interiors]
+    own = [hole for hole in holes if not any(hole.intersects(Polygon(ring)) for ring in polygon.interiors)]
+    around = [hole.buffer(kerf) for hole in own]
+    kept = tuple(tab for tab in tabs if not intersects(Polygon(tab.points), around).any()) if own else tabs
+    return kept, outline if kept is tabs else _outline(polygon, kept, kerf, number)
 
 
 def _outline(polygon, tabs: tuple[Tab, ...], kerf: float, number: int):

@@ -21,6 +21,7 @@ __all__ = ["FOOTER", "JointKind", "Nesting", "Sheets", "require_lengths", "sheet
 JointKind = Literal["tabs", "edges"]
 Nesting = Literal["quick", "dense"]
 FOOTER = 9.0
+SMALLEST = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +40,7 @@ class Sheets:
     margin: float
     kerf: float
     joint: JointKind
+    tab: float
 
     @property
     def count(self) -> int:
@@ -57,12 +59,18 @@ class Sheets:
 
     @property
     def notes(self) -> list[str]:
-        """What a maker should know: edges without a flap, edges that close the ring."""
+        """What a maker should know: edges without a flap, flaps that are shorter than wished, edges that close the ring."""
         out = []
         bare = self.edge_count - sum(len(piece.tabs) for piece in self.pieces)
         if self.joint == "tabs" and bare:
-            out.append(f"edges without a flap, because there is no room for one: {bare} of {self.edge_count}; "
+            beside = f" beside a kerf of {self.kerf:g} mm" if self.kerf else ""
+            out.append(f"edges without a flap, because there is no room for one{beside}: {bare} of {self.edge_count}; "
                        "glue a strip behind them")
+        depths = [tab.depth for piece in self.pieces for tab in piece.tabs]
+        short = sum(depth < self.tab for depth in depths)
+        if short:
+            out.append(f"flaps of less than {self.tab:g} mm, because there is no room for more: {short} of {len(depths)}, "
+                       f"the smallest {min(depths):.1f} mm deep")
         closing = [joint.name for joint in self.joints if joint.closes]
         if closing:
             which = f"joint {closing[0]} closes" if len(closing) == 1 else f"joints {', '.join(closing)} close"
@@ -81,11 +89,16 @@ def sheets(structure: PleatedStructure, *, material: tuple[float, float] = (600.
 
     `scale` is in paper per model. Outlines are grown by half the `kerf`, pieces are `spacing` apart and `margin` from the
     edge of the sheet; `tab` is the depth of glue flaps. All in mm. Raises PlisseError for numbers without sense,
-    InvalidStructure without a development, Infeasible where a face does not fit the material or the kerf is wider than a
-    piece, MissingExtra for dense nesting without spyrrow.
+    InvalidStructure without a development, Infeasible where a face does not fit the material, the kerf is wider than a
+    piece or the whole development smaller than a millimetre, MissingExtra for dense nesting without spyrrow.
     """
     _require_sense(material, units, scale, kerf, joint, tab, margin, spacing, nesting)
+    if spacing >= max(material):
+        raise PlisseError(f"a spacing of {spacing:g} mm is larger than the material; give the distance between pieces in mm")
     paper = paper_of(structure, MILLIMETRES[units] * scale)
+    extent = float(np.ptp(paper.points, axis=0).max())
+    if extent < SMALLEST:
+        raise Infeasible(f"the development would be {extent:.2g} mm wide at scale {scale:g}; give a larger scale, or a size")
     bed = Bed((margin, margin + FOOTER), material[0] - 2 * margin, material[1] - 2 * margin - FOOTER, spacing)
     if min(bed.width, bed.height) <= 0:
         raise Infeasible(f"material of {material[0]:g} × {material[1]:g} mm is smaller than its margins of {margin:g} mm "
@@ -98,13 +111,13 @@ def sheets(structure: PleatedStructure, *, material: tuple[float, float] = (600.
     for k, mask in enumerate(masks):
         piece[mask] = k
     joints = joints_between(paper, piece)
-    tabs = tabs_for(paper, [paper.polygon(mask) for mask in masks], joints, flap) if flap else ()
+    tabs = tabs_for(paper, [paper.polygon(mask) for mask in masks], joints, flap, kerf) if flap else ()
     pieces = pieces_from(paper, masks, tabs, kerf)
     outlines = [piece.outline for piece in pieces]
     placements = nest(outlines, bed)
     if nesting == "dense":
         placements = tightened(outlines, placements, bed)
-    return Sheets(paper, pieces, joints, tuple(placements), material, margin, kerf, joint)
+    return Sheets(paper, pieces, joints, tuple(placements), material, margin, kerf, joint, flap)
 
 
 def _require_sense(material: tuple[float, float], units: str, scale: float, kerf: float, joint: str, tab: float,

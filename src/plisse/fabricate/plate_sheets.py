@@ -47,8 +47,8 @@ def plate_sheets(plates: Plates, *, material: tuple[float, float] = (600.0, 300.
     require_lengths(material, kerf=kerf, margin=margin, spacing=spacing)
     room = material[0] - 2 * margin, material[1] - 2 * margin - FOOTER
     if min(room) <= 0:
-        raise Infeasible(f"material of {material[0]:g} × {material[1]:g} mm has no room inside margins of {margin:g} mm (and "
-                         f"{FOOTER:g} mm for the number of the sheet); take larger material")
+        raise Infeasible(f"material of {material[0]:g} × {material[1]:g} mm has no room inside margins of {margin:g} mm "
+                         f"(and {FOOTER:g} mm for the number of the sheet); take larger material")
     slim = int(np.argmin(plates.widths))
     if kerf >= plates.widths[slim] * MILLIMETRES[units]:
         raise Infeasible(f"a kerf of {kerf:g} mm is wider than plate {slim + 1}; give the width of the cut")

@@ -173,8 +173,8 @@ def _check(tree: ast.expr, text: str, names: tuple[str, ...], what: str, functio
             part = ast.get_source_segment(text.strip(), node) or type(node).__name__
             allowed = ALLOWED.format(names=", ".join(names), functions=", ".join(functions[:-1]), last=functions[-1])
             if isinstance(node, ast.Constant) and type(node.value) in (int, float):
-                raise InvalidDesign(f"{what} {_short(text)} contains {_short(part)}, a number out of range; numbers go up to "
-                                    f"{LARGEST:.0e}")
+                raise InvalidDesign(f"{what} {_short(text)} contains {_short(part)}, a number out of range; they go up "
+                                    f"to {LARGEST:.0e}")
             raise InvalidDesign(f"{what} {_short(text)} contains {_short(part)}; allowed are {allowed}{hint}")
         stack += [(child, depth + 1) for child in children]
 

@@ -1,6 +1,7 @@
 """Files that appear whole or not at all: written aside, then moved into place."""
 
 import os
+import re
 import secrets
 import shutil
 from collections.abc import Iterable, Iterator
@@ -9,7 +10,9 @@ from pathlib import Path
 
 from plisse.errors import PlisseError
 
-__all__ = ["require_writable", "written", "written_together"]
+__all__ = ["numbered_files", "require_writable", "written", "written_together"]
+
+ASIDE = re.compile(r"^\.(.+)\.[0-9]+-[0-9a-f]{8}$")
 
 
 @contextmanager
@@ -42,6 +45,14 @@ def written_together(directory: str | Path, owned: Iterable[str] = ()) -> Iterat
     with _sentence(directory), _staging(directory) as stage:
         yield stage
         _move_in(stage, directory, owned)
+
+
+def numbered_files(directory: str | Path, prefix: str, suffix: str) -> list[str]:
+    """Names of the files in a directory that are `prefix`, digits and `suffix` and nothing else; none if it is not there."""
+    directory = Path(directory)
+    name = re.compile(re.escape(prefix) + "[0-9]+" + re.escape(suffix))
+    files = [file for file in directory.iterdir() if name.fullmatch(file.name)] if directory.is_dir() else []
+    return sorted(file.name for file in files if file.is_file())
 
 
 def require_writable(directory: str | Path, names: Iterable[str] = ()) -> None:
@@ -88,6 +99,11 @@ def _aside(path: Path) -> Path:
     return path.with_name(f".{path.name or 'files'}.{os.getpid()}-{secrets.token_hex(4)}")
 
 
+def _wanted(path: Path) -> Path:
+    """The path that a hidden one beside it stands for."""
+    return Path(*(ASIDE.sub(r"\1", part) for part in path.parts))
+
+
 def _remove_if_empty(directory: Path) -> None:
     try:
         directory.rmdir()
@@ -101,4 +117,4 @@ def _sentence(path: Path) -> Iterator[None]:
         yield
     except OSError as error:
         reason = (error.strerror or type(error).__name__).lower()
-        raise PlisseError(f"{path} cannot be written ({reason}); choose another place") from None
+        raise PlisseError(f"{_wanted(path)} cannot be written ({reason}); choose another place") from None

@@ -6,7 +6,7 @@ import numpy as np
 
 from plisse.draw.colours import rgb
 from plisse.draw.drawing import Drawing, Layer
-from plisse.draw.shapes import Line, Shape, Spline, Text
+from plisse.draw.shapes import Bulged, Line, Shape, Spline, Text
 from plisse.draw.strokes import Stroke
 from plisse.extras import optional
 from plisse.geometry.vectors import norm
@@ -73,11 +73,15 @@ def _add(space, shape: Shape, layer: str, shift: np.ndarray) -> None:
     attributes = {"layer": layer}
     if isinstance(shape, Line):
         space.add_lwpolyline((shape.points + shift).tolist(), close=shape.closed, dxfattribs=attributes)
+    elif isinstance(shape, Bulged):
+        corners = np.column_stack([shape.points + shift, shape.bulges]).tolist()
+        space.add_lwpolyline(corners, format="xyb", close=True, dxfattribs=attributes)
     elif isinstance(shape, Spline):
         controls, pieces = shape.controls + shift, (len(shape.controls) - 1) // 3
         knots = np.concatenate([[0], np.repeat(np.arange(pieces + 1), 3), [pieces]]).astype(float)
         flat = np.column_stack([controls, np.zeros(len(controls))])
-        space.add_open_spline(flat.tolist(), degree=3, knots=knots.tolist(), dxfattribs=attributes)
+        spline = space.add_open_spline(flat.tolist(), degree=3, knots=knots.tolist(), dxfattribs=attributes)
+        spline.closed = shape.closed
     elif shape.is_circle:
         space.add_circle((shape.centre + shift).tolist(), shape.radius, dxfattribs=attributes)
     else:

@@ -64,8 +64,10 @@ def export(model: Model, paths: list[Path]) -> None:
     Raises PlisseError for extensions that no format has and places that cannot be written, MissingExtra where a format
     needs a library that is not installed, InvalidStructure where the flat sheet is wanted and the model has none.
     """
-    for path in paths:
+    for number, path in enumerate(paths):
         _require_known(path)
+        if path.absolute() in [other.absolute() for other in paths[:number]]:
+            raise PlisseError(f"{path} is named twice; name every file once")
     for path in paths:
         if not path.parent.is_dir():
             raise PlisseError(f"{path} cannot be written, because there is no directory {path.parent}; make it first")

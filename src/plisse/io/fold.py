@@ -202,7 +202,7 @@ def _faces(frame: dict, path: Path) -> list[list[int]]:
     count = len(_list(frame, "vertices_coords"))
     for k, face in enumerate(faces):
         if not isinstance(face, list) or not all(type(v) is int and 0 <= v < count for v in face):
-            raise InvalidStructure(f"face {k} of {path.name} does not name vertices from 0 to {count - 1}")
+            raise InvalidStructure(f"faces_vertices[{k}] of {path.name} does not name vertices from 0 to {count - 1}")
     return faces
 
 

@@ -36,8 +36,8 @@ class Corners:
         twins = np.flatnonzero(np.diff(key[order]) == 0)
         if (np.diff(twins) == 1).any():
             corner = order[twins[np.argmax(np.diff(twins) == 1)]]
-            raise InvalidStructure(f"more than two faces meet in the edge from vertex {self.start[corner]} "
-                                   f"to {self.end[corner]}; split the mesh there")
+            raise InvalidStructure(f"more than two faces meet in the edge from vertex {self.start[corner] + 1} "
+                                   f"to {self.end[corner] + 1}; split the mesh there")
         return order[twins], order[twins + 1]
 
 
@@ -120,7 +120,7 @@ def _two_colouring(count: int, first: np.ndarray, second: np.ndarray, differ: np
     sheet = _components(starts, ends, 2 * count)
     torn = sheet[::2] == sheet[1::2]
     if torn.any():
-        raise InvalidStructure(complaint.format(int(np.argmax(torn))))
+        raise InvalidStructure(complaint.format(int(np.argmax(torn)) + 1))
     piece = _components(first, second, count)
     _, root = np.unique(piece, return_index=True)
     return (sheet[::2] != sheet[2 * root[piece]]).astype(np.int64), piece
@@ -136,7 +136,7 @@ def _require_even(faces: list[list[int]]) -> None:
         raise InvalidStructure("the file has no faces; give a mesh of quads")
     for k, face in enumerate(faces):
         if len(face) % 2 or len(face) < 4:
-            raise InvalidStructure(f"face {k} has {len(face)} edges, but pleated structures consist of quads "
+            raise InvalidStructure(f"face {k + 1} has {len(face)} edges, but pleated structures consist of quads "
                                    "between creases; give a quad mesh")
         if len(set(face)) < len(face):
-            raise InvalidStructure(f"face {k} uses a vertex twice; give proper quads")
+            raise InvalidStructure(f"face {k + 1} uses a vertex twice; give proper quads")

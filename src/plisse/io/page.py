@@ -7,11 +7,10 @@ from string import Template
 
 import numpy as np
 
-from plisse.draw import colours
 from plisse.draw.camera import best_view
 from plisse.draw.colour_maps import ColourMap, colour_maps
 from plisse.draw.page_numbers import Entry, entries, summary
-from plisse.draw.page_plots import history_svg, sheet_svg
+from plisse.draw.page_plots import history_svg, key_svg, measured, sheet_svg
 from plisse.draw.picture import Style, picture
 from plisse.draw.scene import scene_json
 from plisse.draw.viewer import resource
@@ -58,10 +57,9 @@ def _still(structure: PleatedStructure) -> str:
 
 
 def _choices(maps: dict[str, ColourMap]) -> str:
-    words = {"paper": "paper", "planarity": "planarity", "angle": "angle sum", "principal": "principal defect",
-             "opening": "opening angle", "deviation": "deviation"}
+    words = {"paper": "paper"} | {name: found.label for name, found in maps.items()}
     return "\n".join(f'<label><input type="radio" name="map" value="{name}"{" checked" if name == "paper" else ""}> '
-                     f"{words[name]}</label>" for name in ("paper", *maps))
+                     f"{escape(word)}</label>" for name, word in words.items())
 
 
 def _scale(found: ColourMap) -> str:
@@ -84,9 +82,8 @@ def _sections(structure: PleatedStructure, report: Report) -> str:
     sheet, history = sheet_svg(structure, report.units), _history(report)
     parts = []
     if sheet:
-        parts.append(f'<section><h2>The flat sheet</h2>{sheet}<p class="soft">Mountains <span class="key" '
-                     f'style="color:{colours.MOUNTAIN}"></span>drawn through, valleys <span class="key" '
-                     f'style="color:{colours.VALLEY};border-top-style:dashed"></span>dashed, rulings thin. '
+        parts.append(f'<section><h2>The flat sheet</h2>{sheet}<p class="soft">Mountains {key_svg("mountain")}'
+                     f'dash-dotted, valleys {key_svg("valley")}dashed, rulings thin. '
                      "<code>plisse sheets</code> makes files to cut and print at 1:1.</p></section>")
     recipe = ""
     if report.design:
@@ -102,15 +99,22 @@ def _history(report: Report) -> str:
     tried = "".join(f"<li>{escape(line)}</li>" for line in report.tried)
     if not chart and not tried and not report.method:
         return ""
-    steps = f", {report.iterations} steps" if report.iterations else ""
+    steps = f", {report.iterations} steps in all" if report.iterations else ""
     seconds = f", {report.seconds['total']:.2f} s" if "total" in report.seconds else ""
     words = f"<p>Method: {escape(report.method)}{steps}{seconds}.</p>" if report.method else ""
     if chart:
-        chart += ('<p class="soft">The largest residual after every step, where 1e-9 counts as exact. A jump upwards is a '
-                  "refinement of the mesh or a condition that was added.</p>")
+        chart += f'<p class="soft">{_reading(len(measured(report.history)), report.method == "paper")}</p>'
     if tried:
         tried = f"<p>Also tried:</p><ul>{tried}</ul>"
     return f"<section><h2>How it was found</h2>{words}{chart}{tried}</section>"
+
+
+def _reading(points: int, paper: bool) -> str:
+    if paper:
+        return f"The {points} values of functional (5) of the paper: at the start and after every step."
+    return (f"The largest residual, measured {points} times: before the first and after every step towards the exact shape; "
+            "steps that only relax the shape beforehand are not measured. 1e-9 counts as exact. A jump upwards is a "
+            "refinement of the mesh or a condition that was added.")
 
 
 def _footer(report: Report) -> str:

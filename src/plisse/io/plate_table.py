@@ -24,7 +24,7 @@ def plates_document(plates: Plates, movement: HingedRange | None = None, *, unit
 
     Plates, strips and positions are numbered from 1; a neighbour is null on the boundary.
     """
-    cut, limit = plates.cut, plates.cut.largest_thickness
+    cut, limit = plates.cut, plates.largest_thickness
     document: dict[str, Any] = {
         "title": title, "units": units, "plates": plates.count, "thickness": cut.thickness, "gap": cut.gap, "side": cut.side,
         "hinged": cut.hinged, "largest_thickness": limit if np.isfinite(limit) else None, "largest_gap": cut.largest_gap,

@@ -49,7 +49,7 @@ def _read_npy(path: Path) -> np.ndarray:
 
 def _read_rows(path: Path) -> np.ndarray:
     """Rows of numbers separated by commas, semicolons or blanks; a header line of words is skipped."""
-    rows = []
+    rows: list[list[float]] = []
     for number, line in enumerate(path.read_text(encoding="utf-8-sig").splitlines(), 1):
         fields = line.replace(",", " ").replace(";", " ").split("#")[0].split()
         if not fields:

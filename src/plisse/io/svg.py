@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 
 from plisse.draw.drawing import Drawing, Layer
-from plisse.draw.shapes import Arc, Line, Shape, Spline, Text
+from plisse.draw.shapes import Arc, Bulged, Line, Shape, Spline, Text
 from plisse.io.atomic import written
 
-__all__ = ["write_svg"]
+__all__ = ["SVG", "write_svg"]
 
 SVG = "http://www.w3.org/2000/svg"
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
@@ -61,7 +61,7 @@ def _path(shape: Shape, height: float) -> str:
     if isinstance(shape, Spline):
         first, rest = shape.controls[:1], shape.controls[1:]
         return f"M{_pairs(first, height)} C{_pairs(rest, height)}" + (" Z" if shape.closed else "")
-    return _arc(shape, height)
+    return _bulged(shape, height) if isinstance(shape, Bulged) else _arc(shape, height)
 
 
 def _arc(arc: Arc, height: float) -> str:
@@ -71,6 +71,16 @@ def _arc(arc: Arc, height: float) -> str:
     start, *ends = (_pairs(joint[None], height) for joint in joints)
     radius = _number(arc.radius)
     return f"M{start}" + "".join(f" A{radius},{radius} 0 0 0 {end}" for end in ends) + (" Z" if arc.is_circle else "")
+
+
+def _bulged(shape: Bulged, height: float) -> str:
+    """Lines and arcs in one path, which ends where it began."""
+    ends, steps = np.roll(shape.points, -1, axis=0), []
+    for end, bulge, radius in zip(ends, shape.bulges.tolist(), shape.radii.tolist(), strict=True):
+        size = _number(radius)
+        by = f"A{size},{size} 0 {int(abs(bulge) > 1)} {int(bulge < 0)} " if bulge else "L"
+        steps.append(by + _pairs(end[None], height))
+    return f"M{_pairs(shape.points[:1], height)} {' '.join(steps)} Z"
 
 
 def _text(text: Text, height: float, colour: str) -> ET.Element:

@@ -2,10 +2,19 @@
 
 import numpy as np
 
-from plisse.errors import Infeasible
+from plisse.errors import Infeasible, InvalidDesign
 from plisse.layout.widths import mirrored_width
 
-__all__ = ["crease_positions", "fan_radius", "upright_amplitude"]
+__all__ = ["crease_positions", "fan_radius", "refuse_too_many", "upright_amplitude"]
+
+MOST_VERTICES = 250_000
+
+
+def refuse_too_many(vertices: float, remedy: str) -> None:
+    """Raise InvalidDesign where a layout would have more vertices than are solved for; `remedy` says what to change."""
+    if vertices > MOST_VERTICES:
+        raise InvalidDesign(f"pleats that narrow have about {vertices:.2g} vertices, more than the {MOST_VERTICES:,} that "
+                            f"plisse solves for; {remedy}")
 
 
 def crease_positions(length: float, closed: bool, *, theta: float, width: float, amplitude: float,

@@ -116,7 +116,7 @@ class SurfaceDesign(Strict, kw_only=True, frozen=True):
     units: Units = "mm"
 
     def to_dict(self) -> dict:
-        """Plain dictionaries and lists, as TOML or JSON would hold them; keys that are not set or say nothing are left out."""
+        """Plain dictionaries and lists, as TOML or JSON would hold them; keys without meaning are left out."""
         data = without_none(msgspec.to_builtins(self))
         for name in ("x", "y") if self.surface.height is None else ():
             if name == "y" or self.surface.radius is None:

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plisse.geometry.graph import GraphSurface
 from plisse.geometry.mesh import ReferenceMesh
-from plisse.geometry.parametric import ParametricSurface
 from plisse.layout.automatic import Layout
+from plisse.layout.rows import ChartedSurface
 from plisse.measure.mid_surface import MidSurfaceDeviation
 from plisse.solve.masked import Masked
 from plisse.structure.topology import Topology
@@ -83,7 +82,7 @@ class Candidate:
         return self.is_full and self.mean_deviation < NEAR
 
 
-def centre_of(candidate: Candidate, surface: GraphSurface | ParametricSurface) -> np.ndarray | None:
+def centre_of(candidate: Candidate, surface: ChartedSurface) -> np.ndarray | None:
     """The point (3,) around which the rows of a candidate run.
 
     None where they run around none, or where no point stands for it because the surface does not reach there.

@@ -127,10 +127,10 @@ def whole_surface(mesh: ReferenceMesh, surface: ChartedSurface, *, width: float 
 
     Lengths are in model units, `theta` (preferred inclination) is in radians. Only layouts around `centre` (3,) are
     tried where it is given; it may lie anywhere, its chart coordinates count. Without `overhang` creases open by 15° at
-    least and layouts prefer |θ| below 45°, which solving may exceed. The first crease lies `above` the surface or below; with `inside` no row
-    reaches beyond its boundary. At most `seams` cut it apart; None leaves it in one piece unless no centre is given
-    and seams cover notably more. `progress` hears the stage and how much of it is done. Raises Infeasible where no
-    layout has a solution.
+    least and layouts prefer |θ| below 45°, which solving may exceed. The first crease lies `above` the surface or below;
+    with `inside` no row reaches beyond its boundary. At most `seams` cut it apart; None leaves it in one piece unless no
+    centre is given and seams cover notably more. `progress` hears the stage and how much of it is done. Raises
+    Infeasible where no layout has a solution.
     """
     report = progress or (lambda stage, fraction: None)
     width = width or sensible_width(mesh, surface)

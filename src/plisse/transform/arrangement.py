@@ -68,7 +68,9 @@ class Arrangement:
 
 def arranged(lanes: Iterable[Lane], width: float, side: str = "both") -> Arrangement:
     """Strips along all lanes for which there is one; raises Infeasible, with the first reason, where there is none."""
-    strips, numbers, inclinations, notes, lost = [], [], [], [], []
+    notes: list[str] = []
+    lost: list[str] = []
+    strips, numbers, inclinations = [], [], []
     for number, lane in enumerate(lanes, 1):
         try:
             strip = rectifying_strip(lane.points, width, closed=lane.closed, side=side, reference=lane.reference)

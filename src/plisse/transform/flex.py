@@ -64,7 +64,8 @@ def flex(structure: PleatedStructure, percent) -> Motion:
     """The motion of a principal structure at one percent or several, each in [0, 200], every state exact.
 
     Raises InvalidStructure with the vertex and its defect for structures that are not principal: they have no motion
-    that keeps their rulings, and for those that lie flat, which do not say how far edges fold. Raises InvalidDesign for percents outside the range.
+    that keeps their rulings, and for those that lie flat, which do not say how far edges fold. Raises
+    InvalidDesign for percents outside the range.
     """
     percent = _checked(percent)
     require_principal(structure, "it has no motion that keeps its rulings")

@@ -37,9 +37,10 @@ def nearest_parallel(structure: PleatedStructure, targets: np.ndarray, weights: 
     """The parallel mesh X that minimises the mean of w |X − target|² / h² under edge scales ≥ `least_scale`.
 
     `targets` (V, 3) in model units, `weights` (V,) not negative, default 1; h is the mean edge length, translations are
-    free. Raises Infeasible, with a place that can be reached, where targets would make all edges as short as
-    the limit or some of them more than 2000 times as long as others. `fairness` times the mean squared difference of the scales of successive edges is added. Raises InvalidStructure
-    for targets that do not fit, MissingExtra where Clarabel is not installed.
+    free. Raises Infeasible, with a place that can be reached, where targets would make all edges as short as the limit or
+    some of them more than 2000 times as long as others. `fairness` times the mean squared difference of the scales of
+    successive edges is added. Raises InvalidStructure for targets that do not fit, MissingExtra where Clarabel is not
+    installed.
     """
     space = ParallelSpace(structure)
     targets, weights = _checked(structure, targets, weights, least_scale)

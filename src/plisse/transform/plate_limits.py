@@ -32,7 +32,7 @@ class PlateCut:
 
     @classmethod
     def checked(cls, outlines: Outlines, thickness: float, gap: float, side: str, hinged: bool) -> "PlateCut":
-        """The cut, if it is possible; raises InvalidDesign with the largest possible gap or thickness if not."""
+        """The cut, its thickness not yet held against the largest; raises InvalidDesign with the largest possible gap."""
         if side not in SIDES:
             raise InvalidDesign(f"side is {side!r}; give inner, outer or both")
         if not (np.isfinite(thickness) and thickness > 0):
@@ -45,11 +45,6 @@ class PlateCut:
         if not gap < cut.largest_gap:
             raise InvalidDesign(f"a gap of {gap:g} leaves nothing of plate {cut._at(cut._gap_limits)}; "
                                 f"the largest possible gap is {rounded_down(cut.largest_gap)}")
-        if not thickness < cut.largest_thickness:
-            what = "plates would run into each other as they fold" if hinged else "an edge would shrink to nothing"
-            raise InvalidDesign(f"plates of thickness {thickness:g} are not possible: {what} at plate "
-                                f"{cut._at(cut._thickness_limits)}; the largest possible thickness is "
-                                f"{rounded_down(cut.largest_thickness)}")
         return cut
 
     @property
@@ -66,6 +61,12 @@ class PlateCut:
     def largest_thickness(self) -> float:
         """The thickness in model units that no edge allows to be exceeded in this state; may be infinite."""
         return float(self._thickness_limits.min())
+
+    @property
+    def thickest_place(self) -> str:
+        """What happens at the largest thickness, and at which plate."""
+        what = "plates would run into each other as they fold" if self.hinged else "an edge would shrink to nothing"
+        return f"{what} at plate {self._at(self._thickness_limits)}"
 
     def with_thickness(self, thickness: float) -> "PlateCut":
         """The same cut with another thickness, unchecked."""

@@ -90,6 +90,16 @@ class Plates:
         return np.minimum(*(self._widths(outline) for outline in self.flat))
 
     @cached_property
+    def largest_thickness(self) -> float:
+        """The thickness in model units up to which no edge vanishes and no two plates collide; may be infinite."""
+        limit = self.cut.largest_thickness
+        if not np.isfinite(limit):
+            return limit
+        most = limit * (1 - 1e-9)
+        struck = _struck(self, most)
+        return _collision_limit(self, struck, self.cut.thickness, most) if len(struck) else limit
+
+    @cached_property
     def strips(self) -> np.ndarray:
         """Number (F,) of the strip between two creases that each plate belongs to, from 0."""
         edges = self.structure.topology.edges
@@ -141,7 +151,7 @@ def plates(structure: PleatedStructure, thickness: float, *, gap: float = 0.0,
         raise Infeasible(f"plate {wrong[0] + 1} cannot be cut: its face is folded over or not convex")
     cut = PlateCut.checked(Outlines(structure.topology, structure.vertices), thickness, gap, side, hinged)
     made = Plates(structure, cut, *cut.solids())
-    _refuse_collisions(made)
+    _refuse_thickness(made)
     return made
 
 
@@ -159,21 +169,37 @@ def padded_corners(structure: PleatedStructure) -> np.ndarray:
     return np.concatenate(rows)
 
 
-def _refuse_collisions(made: Plates) -> None:
-    """Raises InvalidDesign with the largest thickness where plates that need not be neighbours run into each other."""
-    tolerance = TOUCHING * made.structure.diagonal
-    solids = ConvexSolids(made.lower[made.corners], made.upper[made.corners])
-    struck = solids.overlapping(solids.near(), tolerance)
-    if len(struck) == 0:
+def _refuse_thickness(made: Plates) -> None:
+    """Raises InvalidDesign with the largest thickness where edges vanish or plates run into each other."""
+    cut = made.cut
+    edges = cut.largest_thickness
+    most = min(cut.thickness, edges * (1 - 1e-9))
+    struck = _struck(made, most)
+    if len(struck) == 0 and cut.thickness < edges:
         return
-    low, high = 0.0, made.cut.thickness
-    while high - low > 1e-6 * made.cut.thickness:
-        middle = 0.5 * (low + high)
-        lower, upper = made.cut.with_thickness(middle).solids()
-        found = ConvexSolids(lower[made.corners], upper[made.corners]).overlapping(struck, tolerance)
-        low, high = (low, middle) if len(found) else (middle, high)
-    one, other = struck[0] + 1
+    low = _collision_limit(made, struck, 0.0, most) if len(struck) else edges
     if low == 0:
+        one, other = struck[0] + 1
         raise Infeasible(f"the structure cuts through itself at plates {one} and {other}; make one that does not first")
-    raise InvalidDesign(f"plates {one} and {other} would run into each other at thickness {made.cut.thickness:g}; "
+    if cut.thickness < edges:
+        one, other = struck[0] + 1
+        raise InvalidDesign(f"plates {one} and {other} would run into each other at thickness {cut.thickness:g}; "
+                            f"the largest possible thickness is {rounded_down(low)}")
+    raise InvalidDesign(f"plates of thickness {cut.thickness:g} are not possible: {cut.thickest_place}; "
                         f"the largest possible thickness is {rounded_down(low)}")
+
+
+def _struck(made: Plates, thickness: float, pairs: np.ndarray | None = None) -> np.ndarray:
+    """Pairs (P, 2) of plates that collide at a thickness, of those given or of all."""
+    lower, upper = made.cut.with_thickness(thickness).solids()
+    solids = ConvexSolids(lower[made.corners], upper[made.corners])
+    return solids.overlapping(solids.near() if pairs is None else pairs, TOUCHING * made.structure.diagonal)
+
+
+def _collision_limit(made: Plates, struck: np.ndarray, low: float, high: float) -> float:
+    """The thickness from which some of the pairs (P, 2) collide that do at `high`, to 1e-6; `low` where they all do."""
+    while high - low > 1e-6 * high and high > 1e-9 * made.cut.thickness:
+        middle = 0.5 * (low + high)
+        found = _struck(made, middle, struck)
+        low, high, struck = (low, middle, found) if len(found) else (middle, high, struck)
+    return low

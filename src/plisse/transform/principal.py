@@ -21,7 +21,8 @@ def require_folded(structure: PleatedStructure, consequence: str) -> None:
     topology, vertices = structure.topology, structure.vertices
     inner = ~topology.edges.is_boundary
     if not inner.any():
-        raise InvalidStructure(f"no crease lies between two faces, so {consequence}; give a structure with at least two strips")
+        raise InvalidStructure(f"no crease lies between two faces, so {consequence}; give a structure with at least "
+                               "two strips")
     if np.abs(fold_angles(topology, vertices)[inner]).max() < FLATTEST:
         raise InvalidStructure(f"the structure lies flat, no crease is folded, so {consequence}; give a folded state")
     height = np.linalg.svd(vertices - vertices.mean(axis=0), compute_uv=False)[2] / np.sqrt(len(vertices))

@@ -26,6 +26,7 @@ STRAIGHT = 1e-9  # curvature times size below which a curve is straight
 ROOM = 0.9  # share of the room between curve and meeting rulings that a narrowed strip takes
 NARROWEST = 0.2  # share of the width asked for under which a strip is cut instead
 LONGEST_CUT = 0.85  # share of its length from which on a strip is cut at an end rather than narrowed
+TINY = 1e-12  # a strip may always be widened less than by the inverse of this
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,7 +219,7 @@ def _room(strip: RectifyingStrip) -> np.ndarray:
     """Per face (n − 1,) the factor by which the strip may be widened before its rulings meet."""
     turn = np.diff(strip.cotangents)
     closing = np.maximum(-strip.low * turn, -strip.high * turn)
-    return np.divide(strip.lengths, closing, out=np.full(len(turn), np.inf), where=closing > 0)
+    return np.divide(strip.lengths, closing, out=np.full(len(turn), np.inf), where=closing > TINY * strip.lengths)
 
 
 def _longest_run(good: np.ndarray) -> tuple[int, int]:

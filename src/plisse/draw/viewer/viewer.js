@@ -8,7 +8,6 @@
   if (!gl || !gl.getExtension("OES_element_index_uint")) {
     return; // the picture below stays
   }
-  figure.classList.add("live");
 
   function bytes(text) {
     const raw = atob(text);
@@ -100,14 +99,23 @@
   const triangles = new Uint32Array(bytes(scene.triangles));
   const places = new Float32Array(3 * corner.length);
   corner.forEach((v, k) => places.set(vertices.subarray(3 * v, 3 * v + 3), 3 * k));
-  const paper = program(PAPER, LIGHT), stroke = program(STROKE, INK);
-  const data = {
-    place: buffer(places), normal: buffer(new Int16Array(bytes(scene.normals))), open: buffer(new Uint8Array(bytes(scene.open))),
-    index: buffer(triangles, gl.ELEMENT_ARRAY_BUFFER), plain: buffer(new Uint8Array(4 * corner.length)),
-  };
-  const maps = {};
-  for (const map of scene.maps) maps[map.name] = buffer(new Uint8Array(bytes(map.colours)));
-  const lines = scene.lines.map(function (line) {
+  let paper, stroke, data, maps, lines;
+
+  function upload() { // what a lost context takes with it
+    gl.getExtension("OES_element_index_uint");
+    paper = program(PAPER, LIGHT);
+    stroke = program(STROKE, INK);
+    data = {
+      place: buffer(places), normal: buffer(new Int16Array(bytes(scene.normals))), open: buffer(new Uint8Array(bytes(scene.open))),
+      index: buffer(triangles, gl.ELEMENT_ARRAY_BUFFER), plain: buffer(new Uint8Array(4 * corner.length)),
+    };
+    maps = {};
+    for (const map of scene.maps) maps[map.name] = buffer(new Uint8Array(bytes(map.colours)));
+    lines = scene.lines.map(uploaded);
+    figure.classList.add("live");
+  }
+
+  function uploaded(line) {
     const pairs = new Uint32Array(bytes(line.edges));
     const count = pairs.length / 2, here = new Float32Array(18 * count), there = new Float32Array(18 * count);
     const side = new Float32Array(6 * count);
@@ -121,7 +129,7 @@
       });
     }
     return { ...line, count: 6 * count, here: buffer(here), there: buffer(there), side: buffer(side) };
-  });
+  }
 
   const start = { azimuth: 0, elevation: scene.elevation, zoom: 1 };
   const state = { ...start, map: "paper", creases: true, rulings: false, turning: false };
@@ -157,7 +165,7 @@
   function draw() {
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const width = Math.round(canvas.clientWidth * ratio), height = Math.round(canvas.clientHeight * ratio);
-    if (!width || !height) return;
+    if (!width || !height || gl.isContextLost()) return;
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     const { view, turn } = matrices();
     gl.viewport(0, 0, width, height);
@@ -278,7 +286,16 @@
     });
   }
   figure.querySelector("button").addEventListener("click", reset);
+  canvas.addEventListener("webglcontextlost", function (event) {
+    event.preventDefault(); // asks for a new context
+    figure.classList.remove("live"); // until then the picture shows
+  });
+  canvas.addEventListener("webglcontextrestored", function () {
+    upload();
+    redraw();
+  });
   new ResizeObserver(redraw).observe(canvas);
+  if (!gl.isContextLost()) upload();
   redraw();
 })();
 
