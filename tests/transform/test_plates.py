@@ -179,7 +179,8 @@ def test_slim_plates_are_named():
 
 @pytest.mark.parametrize(("arguments", "sentence"), [
     ({"thickness": 0.0}, "positive"), ({"thickness": np.inf}, "positive"),
-    ({"thickness": 0.01, "gap": -1.0}, "not negative"), ({"thickness": 0.01, "gap": 9.0}, "largest possible gap"), ({"thickness": 0.01, "hinged": True}, "need a gap"),
+    ({"thickness": 0.01, "gap": -1.0}, "not negative"), ({"thickness": 0.01, "gap": 9.0}, "largest possible gap"),
+    ({"thickness": 0.01, "hinged": True}, "need a gap"),
     ({"thickness": 0.01, "side": "left"}, "inner, outer or both"),
 ])
 def test_impossible_plates_are_one_sentence(arguments, sentence):
