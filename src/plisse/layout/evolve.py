@@ -14,7 +14,7 @@ from plisse.structure.pattern import Pattern
 
 __all__ = ["default_smoothing", "evolution_nodes", "evolve", "refuse_collapse"]
 
-STEPS_PER_STRIP = 4
+STEPS_PER_STRIP = 8
 SMALLEST_STRETCH = 0.005
 
 
@@ -56,7 +56,7 @@ def evolution_nodes(seed: np.ndarray, closed: bool) -> int:
 
 
 def _step_count(points: np.ndarray, width: np.ndarray, closed: bool) -> int:
-    return int(np.clip(np.ceil(20 * (width * curvature(points, closed)).max()), STEPS_PER_STRIP, 40))
+    return int(np.clip(np.ceil(40 * (width * curvature(points, closed)).max()), STEPS_PER_STRIP, 80))
 
 
 def _midpoint_step(points, width, theta, closed, smoothing):
