@@ -1,0 +1,40 @@
+"""Fig. 21 again: the columns of the contract, and rows that are what a design gives."""
+
+import json
+
+import pytest
+
+import plisse
+from plisse.cli import main
+from plisse.shipped import shipped_design
+from plisse.table import PRINTED, as_markdown, table, totals
+
+KEYS = {"name", "vertices", "faces", "iterations", "seconds", "planarity_max", "planarity_mean", "angle_max", "angle_mean",
+        "status", "paper_seconds"}
+
+
+def test_a_row_is_what_the_design_gives(capsys):
+    assert main(["table", "fig26", "--json"]) == 0
+    row, = json.loads(capsys.readouterr().out)
+    assert set(row) == KEYS
+    report = plisse.design(str(shipped_design("fig26"))).report
+    assert (row["vertices"], row["faces"], row["status"]) == (report.vertices, report.faces, "exact")
+    assert row["planarity_max"] == report.planarity.max
+    assert row["seconds"] > 0
+    assert row["paper_seconds"] == PRINTED["fig26"].seconds
+
+
+def test_the_printed_seconds_are_those_of_the_paper():
+    assert sum(row.seconds for row in PRINTED.values()) == pytest.approx(144.4, abs=0.1)
+
+
+def test_totals_stand_below_the_markdown_table():
+    rows = table(["fig26"])
+    lines = as_markdown(rows).splitlines()
+    assert len(lines) == 4
+    assert f"{totals(rows)[1]:.1f}" in lines[-1]
+
+
+def test_an_example_that_the_paper_does_not_list_is_one_sentence(capsys):
+    assert main(["table", "fig99"]) == 1
+    assert "no example of Fig. 21" in capsys.readouterr().err
