@@ -3,7 +3,7 @@
 import numpy as np
 
 from plisse.layout.guiding import Guiding
-from plisse.recipe import AsymptoticDesign, Design, SurfaceDesign
+from plisse.recipe import Recipe
 from plisse.result import Report, Result
 from plisse.solve.portfolio import Outcome
 from plisse.stopwatch import Stopwatch
@@ -33,7 +33,7 @@ def _said_of(outcome: Outcome) -> list[str]:
     return lines
 
 
-def broken_down(recipe: Design | SurfaceDesign | AsymptoticDesign, reasons: list[str], watch: Stopwatch,
+def broken_down(recipe: Recipe, reasons: list[str], watch: Stopwatch,
                 guide: Guiding | None = None, zigzagged: PleatedStructure | None = None) -> Result:
     """The result of a design that came to nothing, with the reasons."""
     report = Report(status="infeasible", reasons=reasons, seconds=watch.stop(), units=recipe.units,

@@ -10,10 +10,10 @@ from plisse.arrangements import arranged_strips
 from plisse.assess import assess, overlap_notes, start_defects
 from plisse.asymptotic import along_asymptotic_curves
 from plisse.errors import Infeasible
-from plisse.io.designs import design_from_dict, read_design
+from plisse.io.designs import checked_design
 from plisse.layout.guiding import Guiding, guiding
 from plisse.outcomes import broken_down, way_of
-from plisse.recipe import AsymptoticDesign, Curve, Design, March, SurfaceDesign
+from plisse.recipe import AsymptoticDesign, Curve, Design, March, Recipe, SurfaceDesign
 from plisse.result import Report, Result
 from plisse.solve.attempt import Start
 from plisse.solve.closed_form import closed_form
@@ -36,7 +36,7 @@ __all__ = ["design"]
 Progress = Callable[[str, float], None]
 
 
-def design(recipe: Design | SurfaceDesign | AsymptoticDesign | dict | str | Path, *, progress: Progress | None = None,
+def design(recipe: Recipe | dict | str | Path, *, progress: Progress | None = None,
            workspace: Workspace | None = None) -> Result:
     """The structure that a recipe asks for, with the pattern it follows and the report that proves it.
 
@@ -44,7 +44,7 @@ def design(recipe: Design | SurfaceDesign | AsymptoticDesign | dict | str | Path
     called as work goes on; designs of one size that share a `workspace` are solved faster. Raises InvalidDesign for
     impossible recipes; geometry that breaks down on the way is reported (status "infeasible"), not raised.
     """
-    recipe = _checked(recipe)
+    recipe = checked_design(recipe)
     watch = Stopwatch(progress)
     if isinstance(recipe, AsymptoticDesign):
         return along_asymptotic_curves(recipe, watch, workspace or Workspace())
@@ -146,13 +146,6 @@ def _measured(recipe: Design, guides: np.ndarray, amplitude: float, structure: P
     watch.start("measure", 0.8)
     report = assess(structure, principal=recipe.solve.principal, guides=guides, amplitude=amplitude, units=recipe.units)
     return msgspec.structs.replace(report, seconds=watch.stop(), design=recipe.to_dict())
-
-
-def _checked(recipe: Design | SurfaceDesign | AsymptoticDesign | dict | str | Path) \
-        -> Design | SurfaceDesign | AsymptoticDesign:
-    if isinstance(recipe, Design | SurfaceDesign | AsymptoticDesign):
-        return design_from_dict(recipe.to_dict())  # objects made in Python are not validated before
-    return design_from_dict(recipe) if isinstance(recipe, dict) else read_design(recipe)
 
 
 def _notes(start: Start, guide: Guiding) -> list[str]:

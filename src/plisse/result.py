@@ -7,7 +7,7 @@ import msgspec
 import numpy as np
 
 from plisse.geometry.mesh import ReferenceMesh
-from plisse.recipe import AsymptoticDesign, Design, SurfaceDesign
+from plisse.recipe import Recipe
 from plisse.structure.pattern import Pattern
 from plisse.structure.pleated import PleatedStructure
 from plisse.transform.arrangement import Arrangement
@@ -127,7 +127,7 @@ class Result:
     `surface` where there is one.
     """
 
-    design: Design | SurfaceDesign | AsymptoticDesign
+    design: Recipe
     report: Report
     pattern: Pattern | None = None
     zigzagged: PleatedStructure | None = None

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from plisse.errors import InvalidDesign
-from plisse.io.designs import design_from_dict, read_design
+from plisse.io.designs import checked_design, design_from_dict
 from plisse.pipeline import design
 from plisse.recipe import Recipe
 from plisse.result import Result
@@ -25,8 +25,7 @@ class Session:
 
     def __init__(self, recipe: Recipe | dict | str | Path, *, progress: Progress | None = None):
         self._workspace = Workspace()
-        self.recipe = read_design(recipe) if isinstance(recipe, str | Path) else _checked(recipe)
-        self.result = self._solved(self.recipe, progress)
+        self.open(recipe, progress=progress)
 
     def update(self, changes: dict | None = None, /, *, progress: Progress | None = None, **values) -> Result:
         """The structure after changes: keys as in a design (`theta=30`, `width=5`), or `{"section.key": value}`.
@@ -37,13 +36,10 @@ class Session:
 
     def open(self, recipe: Recipe | dict | str | Path, *, progress: Progress | None = None) -> Result:
         """The structure of another recipe, on the patterns that are kept."""
-        recipe = read_design(recipe) if isinstance(recipe, str | Path) else _checked(recipe)
-        result = self._solved(recipe, progress)
+        recipe = checked_design(recipe)
+        result = design(recipe, progress=progress, workspace=self._workspace)
         self.recipe, self.result = recipe, result
         return result
-
-    def _solved(self, recipe: Recipe, progress: Progress | None) -> Result:
-        return design(recipe, progress=progress, workspace=self._workspace)
 
 
 def changed(recipe: Recipe, changes: dict) -> Recipe:
@@ -74,10 +70,6 @@ def _place(recipe: Recipe, name: str) -> tuple[str | None, str]:
                             f"update({{\"{fitting[0]}.{name}\": …}})")
     known = sorted({key for section in SECTIONS for key in _keys(getattr(recipe, section, None))})
     raise InvalidDesign(f"a design of this kind has no key {name}; its keys are {', '.join(known)}")
-
-
-def _checked(recipe: Recipe | dict) -> Recipe:
-    return design_from_dict(recipe if isinstance(recipe, dict) else recipe.to_dict())
 
 
 def _keys(section) -> tuple[str, ...]:

@@ -12,12 +12,20 @@ from plisse.io.consistency import check_design
 from plisse.io.mistakes import is_asymptotic, refuse_non_finite, sentence
 from plisse.io.polylines import read_polyline
 from plisse.io.surface_consistency import check_surface_design
-from plisse.recipe import AsymptoticDesign, Design, Points, Spline, SurfaceDesign
+from plisse.recipe import AsymptoticDesign, Design, Points, Recipe, Spline, SurfaceDesign
 
-__all__ = ["design_from_dict", "parse_assignment", "read_design"]
+__all__ = ["checked_design", "design_from_dict", "parse_assignment", "read_design"]
 
 
-def read_design(path: str | Path, overrides: Iterable[str] = ()) -> Design | SurfaceDesign | AsymptoticDesign:
+def checked_design(recipe: Recipe | dict | str | Path) -> Recipe:
+    """The checked design meant by a recipe, nested dictionaries, or the path of a file; raises InvalidDesign."""
+    if isinstance(recipe, str | Path):
+        return read_design(recipe)
+    # recipes made in Python are not validated before
+    return design_from_dict(recipe if isinstance(recipe, dict) else recipe.to_dict())
+
+
+def read_design(path: str | Path, overrides: Iterable[str] = ()) -> Recipe:
     """The design in a TOML file, with `section.key=value` overrides applied.
 
     Curve files are found beside the design and their points taken into it, so that the design stands alone.
@@ -42,7 +50,7 @@ def read_design(path: str | Path, overrides: Iterable[str] = ()) -> Design | Sur
     return design_from_dict(data, base=path.parent)
 
 
-def design_from_dict(data: dict, base: str | Path = ".") -> Design | SurfaceDesign | AsymptoticDesign:
+def design_from_dict(data: dict, base: str | Path = ".") -> Recipe:
     """The checked design in nested dictionaries as TOML holds them; file names are relative to `base`.
 
     A `surface` section makes it the design of a reconstruction, one with a `kind` that of pleats along asymptotic curves.

@@ -1,15 +1,13 @@
 """Plates as solids in files: OBJ with a group per plate, STL, GLB and 3MF with an object per plate."""
 
-import zipfile
 from pathlib import Path
-from xml.sax.saxutils import escape
 
 import numpy as np
 
 from plisse.draw.colours import PAPER, rgb
 from plisse.errors import InvalidDesign
 from plisse.io.atomic import written
-from plisse.io.threemf import CONTENT_TYPES, RELATIONSHIPS, UNITS
+from plisse.io.threemf import write_package
 from plisse.recipe import MILLIMETRES
 from plisse.transform.plates import Plates
 from plisse.transform.solids import Solid, solids
@@ -71,25 +69,8 @@ def _write_glb(parts: list[Solid], path: Path, title: str, units: str) -> None:
 
 
 def _write_3mf(parts: list[Solid], path: Path, title: str, units: str) -> None:
-    lowest = np.min([part.vertices.min(axis=0) for part in parts], axis=0)
-    objects, items = [], []
-    for number, part in enumerate(parts, 1):
-        points = "".join(f'<vertex x="{x!r}" y="{y!r}" z="{z!r}"/>' for x, y, z in (part.vertices - lowest).tolist())
-        corners = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in part.triangles.tolist())
-        objects.append(f'<object id="{number}" type="model" name="{_name(number, len(parts))}"><mesh><vertices>{points}'
-                       f"</vertices><triangles>{corners}</triangles></mesh></object>")
-        items.append(f'<item objectid="{number}"/>')
-    model = ('<?xml version="1.0" encoding="UTF-8"?>\n'
-             f'<model unit="{UNITS[units]}" xml:lang="en-US" '
-             'xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">\n'
-             f'<metadata name="Title">{escape(title or "plates")}</metadata>\n<resources>\n' + "\n".join(objects)
-             + "\n</resources>\n<build>" + "".join(items) + "</build>\n</model>\n")
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as package:
-        for name, text in (("[Content_Types].xml", CONTENT_TYPES), ("_rels/.rels", RELATIONSHIPS),
-                           ("3D/3dmodel.model", model)):
-            entry = zipfile.ZipInfo(name, date_time=(1980, 1, 1, 0, 0, 0))
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            package.writestr(entry, text)
+    named = [(_name(number, len(parts)), part.vertices, part.triangles) for number, part in enumerate(parts, 1)]
+    write_package(path, named, kind="model", title=title or "plates", units=units)
 
 
 def _joined(parts: list[Solid], scale: float):
