@@ -47,6 +47,7 @@ def flex(
     quiet
         Print nothing.
     """
+    from plisse.cli.targets import refuse_source
     from plisse.errors import PlisseError
     from plisse.io.structures import read_model
 
@@ -55,8 +56,7 @@ def flex(
     if target.suffix and target.suffix.lower() not in KINDS and not target.is_dir():
         raise PlisseError(f"{target.name} ends in {target.suffix}, which motions are not written as; give "
                           f"{', '.join(KINDS)} or a directory")
-    if target.exists() and structure.exists() and target.samefile(structure):
-        raise PlisseError(f"{target} is the structure itself; choose another file with -o")
+    refuse_source(target, structure)
     model = read_model(structure)
     motion = model.structure.flex(states)
     files = _write(motion, target, model.title, model.units, picture)

@@ -39,20 +39,15 @@ def offset(
     """
     from plisse.assess import assess
     from plisse.cli.console import show_check
+    from plisse.cli.targets import refuse_source, structure_writer
     from plisse.draw.preview import write_preview
-    from plisse.errors import PlisseError
     from plisse.io.atomic import require_writable, written_together
-    from plisse.io.fold import write_fold
-    from plisse.io.obj import write_obj
     from plisse.io.report import report_json
     from plisse.io.structures import read_model
 
-    writers = {".fold": write_fold, ".obj": write_obj}
     target = Path(f"{structure.stem}-offset.fold") if output is None else output
-    if target.suffix.lower() not in writers:
-        raise PlisseError(f"{target.name} is neither a .fold nor an .obj file; give one of these")
-    if target.exists() and structure.exists() and target.samefile(structure):
-        raise PlisseError(f"{target} is the structure itself; choose another file with -o")
+    write = structure_writer(target)
+    refuse_source(target, structure)
     model = read_model(structure)
     moved = model.structure.offset(distance)
     report = assess(moved, principal=True, units=model.units)
@@ -60,7 +55,7 @@ def offset(
     picture = target.with_suffix(".png").name
     require_writable(target.parent, [target.name, picture])
     with written_together(target.parent) as stage:
-        writers[target.suffix.lower()](moved, stage / target.name, title=title, units=model.units)
+        write(moved, stage / target.name, title=title, units=model.units)
         write_preview(moved, stage / picture, title=title, units=model.units)
     if json:
         print(report_json(report), end="")

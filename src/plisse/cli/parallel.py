@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from plisse.io.model import Model
     from plisse.recipe import Parallel
     from plisse.transform.variation import Member
@@ -76,22 +78,22 @@ def parallel(
         Print nothing.
     """
     from plisse.cli.parallel_options import crease_numbers, parse_factors, parse_move, read_handles
-    from plisse.errors import PlisseError
+    from plisse.cli.targets import refuse_source, structure_writer
+    from plisse.io.designs import section_from_options
     from plisse.io.structures import read_model
 
     target = Path(f"{structure.stem}-parallel.fold") if output is None else output
-    if target.suffix.lower() not in (".fold", ".obj"):
-        raise PlisseError(f"{target.name} is neither a .fold nor an .obj file; give one of these")
-    if target.exists() and structure.exists() and target.samefile(structure):
-        raise PlisseError(f"{target} is the structure itself; choose another file with -o")
+    write = structure_writer(target)
+    refuse_source(target, structure)
     _refuse_idle(refine_fold, rounds, fraction, at, least_scale, bool(move) or handles is not None or near is not None)
     moves = [parse_move(text) for text in move] + ([] if handles is None else read_handles(handles))
-    recipe = _recipe({"lengths": parse_factors(lengths, "--lengths"), "widths": parse_factors(widths, "--widths"),
-                      "growth": growth, "moves": moves or None, "least_scale": least_scale, "fraction": fraction, "at": at,
-                      "rounds": rounds, "refine": crease_numbers(refine_fold)})
+    recipe: Parallel = section_from_options("parallel", {
+        "lengths": parse_factors(lengths, "--lengths"), "widths": parse_factors(widths, "--widths"), "growth": growth,
+        "moves": moves or None, "least_scale": least_scale, "fraction": fraction, "at": at, "rounds": rounds,
+        "refine": crease_numbers(refine_fold)})
     model = read_model(structure)
     family = _family(model, recipe, near, open_)
-    return _finish(model, family, target, json, quiet)
+    return _finish(model, family, write, target, json, quiet)
 
 
 def _refuse_idle(refine_fold: tuple[str, ...], rounds: int, fraction: float, at: float | None, least_scale: float,
@@ -107,23 +109,6 @@ def _refuse_idle(refine_fold: tuple[str, ...], rounds: int, fraction: float, at:
         raise InvalidDesign(f"{name} is for folds replaced by three; give --refine-fold too, or leave it out")
     if least_scale != usual.least_scale and not nearest:
         raise InvalidDesign("--least-scale is for nearest structures; give --move, --handles or --near too, or leave it out")
-
-
-def _recipe(data: dict) -> Parallel:
-    import msgspec
-
-    from plisse.errors import InvalidDesign
-    from plisse.io.mistakes import refuse_non_finite, sentence
-    from plisse.recipe import Design
-
-    given = {name: value for name, value in data.items() if value is not None}
-    refuse_non_finite({"parallel": given})
-    try:
-        recipe = msgspec.convert({"parallel": given}, Design).parallel
-    except msgspec.ValidationError as error:
-        raise InvalidDesign(sentence(str(error), {"parallel": given})) from None
-    assert recipe is not None
-    return recipe
 
 
 def _family(model: Model, recipe: Parallel, near: Path | None, open_: bool) -> tuple[Member, ...]:
@@ -148,7 +133,8 @@ def _family(model: Model, recipe: Parallel, near: Path | None, open_: bool) -> t
     return members if recipe.refine is None else members + variations(found, recipe)[1:]
 
 
-def _finish(model: Model, family: tuple[Member, ...], target: Path, json: bool, quiet: bool) -> int:
+def _finish(model: Model, family: tuple[Member, ...], write: Callable[..., None], target: Path, json: bool,
+            quiet: bool) -> int:
     """Write the last of the family and the picture of all, and say how good it is."""
     from msgspec.structs import replace
 
@@ -156,8 +142,6 @@ def _finish(model: Model, family: tuple[Member, ...], target: Path, json: bool, 
     from plisse.cli.console import show_check
     from plisse.draw.family import write_family
     from plisse.io.atomic import require_writable, written_together
-    from plisse.io.fold import write_fold
-    from plisse.io.obj import write_obj
     from plisse.io.report import report_json
     from plisse.varied import scales_between
 
@@ -168,8 +152,7 @@ def _finish(model: Model, family: tuple[Member, ...], target: Path, json: bool, 
                      edge_scales=scales_between(family[0].structure, family[1].structure))
     title = f"{model.title}, {family[-1].caption}"
     with written_together(target.parent) as stage:
-        (write_fold if target.suffix.lower() == ".fold" else write_obj)(structure, stage / target.name, title=title,
-                                                                        units=model.units)
+        write(structure, stage / target.name, title=title, units=model.units)
         write_family(family, stage / picture, title=model.title)
     if json:
         print(report_json(report), end="")

@@ -58,6 +58,7 @@ def plates(
     quiet
         Print nothing.
     """
+    from plisse.cli.targets import refuse_source
     from plisse.errors import PlisseError
     from plisse.io.plate_solids import require_format
     from plisse.io.structures import read_model
@@ -68,8 +69,7 @@ def plates(
         raise PlisseError("--kerf is for plates laid out on material; give --material, for example 600x300, or leave it out")
     if target.suffix and not target.is_dir():
         require_format(target)
-    if target.exists() and structure.exists() and target.samefile(structure):
-        raise PlisseError(f"{target} is the structure itself; choose another file with -o")
+    refuse_source(target, structure)
     model = read_model(structure)
     made = model.structure.plates(thickness, gap=gap, side=side, hinged=hinged)
     movement = hinged_range(made) if hinged else None

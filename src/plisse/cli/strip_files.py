@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 __all__ = ["write_strip_files"]
 
 
-def write_strip_files(result: Result, directory: Path, *, title: str, thickness: float | None = None) -> None:
+def write_strip_files(result: Result, directory: Path, *, title: str) -> None:
     """Write preview.png, development.svg, cutting-list.csv and, where strips are thick, solids.stl."""
     from plisse.draw.strips import cutting_drawing, write_strips_picture
     from plisse.io.strips import write_cutting_list, write_solids
@@ -24,6 +24,7 @@ def write_strip_files(result: Result, directory: Path, *, title: str, thickness:
     write_svg(cutting_drawing(arrangement, units, title=title), directory / "development.svg")
     write_cutting_list(result.report.strips, directory / "cutting-list.csv")
     strips = result.design.strips
-    thickness = thickness if strips is None else strips.thickness
-    if thickness is not None:
-        write_solids([strip_solid(strip, thickness) for strip in arrangement.strips], directory / "solids.stl", units=units)
+    assert strips is not None
+    if strips.thickness is not None:
+        solids = [strip_solid(strip, strips.thickness) for strip in arrangement.strips]
+        write_solids(solids, directory / "solids.stl", units=units)

@@ -96,22 +96,13 @@ def _refuse_idle(path: Path, creases: tuple[int, ...], closed: bool) -> None:
 
 
 def _wanted(width: float | None, thickness: float | None, side: str | None) -> Strips:
-    import msgspec
-
     from plisse.errors import InvalidDesign
-    from plisse.io.mistakes import refuse_non_finite, sentence
+    from plisse.io.designs import section_from_options
     from plisse.io.strips_consistency import check_thickness
-    from plisse.recipe import Design
 
-    data = {name: value for name, value in (("width", width), ("thickness", thickness), ("side", side)) if value is not None}
     if width is None:
         raise InvalidDesign("--width is missing; say how wide the strips shall be")
-    refuse_non_finite({"strips": data})
-    try:
-        wanted = msgspec.convert({"strips": data}, Design).strips
-    except msgspec.ValidationError as error:
-        raise InvalidDesign(sentence(str(error), {"strips": data})) from None
-    assert wanted is not None
+    wanted = section_from_options("strips", {"width": width, "thickness": thickness, "side": side})
     check_thickness(wanted)
     return wanted
 

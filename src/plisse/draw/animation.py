@@ -30,7 +30,7 @@ def write_gif(motion: Motion, path: str | Path) -> None:
     scale = float(((np.array(LARGEST) - 2 * MARGIN) / extent).min())
     width, height = np.ceil(extent * scale + 2 * MARGIN).astype(int).tolist()
     size = width, height
-    states = [PleatedStructure(motion.topology, vertices) for vertices in motion.vertices]
+    states = motion.structures
     frames = paletted([_frame(state, camera, scale, low, size, runs) for state in states])
     frames = frames + frames[-2:0:-1]
     pause = max(BRIEFEST, SECONDS_ONE_WAY / max(1, len(states) - 1))

@@ -4,6 +4,7 @@ import numpy as np
 
 from plisse.geometry.vectors import unit
 from plisse.measure.planarity import face_normals
+from plisse.structure.incidence import edge_lookup
 from plisse.structure.topology import Topology
 
 __all__ = ["corner_normals", "corner_triangles"]
@@ -28,10 +29,7 @@ def corner_normals(topology: Topology, vertices: np.ndarray) -> np.ndarray:
     second = np.where(meets, edges.faces[:, 1], edges.faces[:, 0])
     across = unit(faces[edges.faces[:, 0]] + faces[second])
     corners = topology.corners
-    key = np.sort(edges.vertices, axis=1) @ [topology.vertex_count, 1]
-    order = np.argsort(key)
     other = np.where(corners.next_is_crease, corners.previous, corners.next)
-    wanted = np.minimum(corners.vertex, other) * topology.vertex_count + np.maximum(corners.vertex, other)
-    normals = across[order[np.searchsorted(key[order], wanted)]]
+    normals = across[edge_lookup(topology)(corners.vertex, other)]
     in_hub = corners.face >= len(topology.quads)
     return np.where(in_hub[:, None], faces[corners.face], normals)

@@ -25,7 +25,7 @@ def write_motion_strip(motion: Motion, path: str | Path, *, title: str = "") -> 
     vertex is shown with the cone that touches its four faces (Fig. 10).
     """
     motion = motion.at(shown_percents(motion.percent))
-    states = [PleatedStructure(motion.topology, vertices) for vertices in motion.vertices]
+    states = list(motion.structures)
     beyond = [percent not in motion.free_range for percent in motion.percent.tolist()]
     captions = [f"{percent:.4g} %" + _remark(state) * outside
                 for percent, state, outside in zip(motion.percent.tolist(), states, beyond, strict=True)]

@@ -6,7 +6,7 @@ import numpy as np
 
 from plisse.draw import colours
 from plisse.draw.camera import best_view
-from plisse.draw.raster import DepthBuffer, rasterise
+from plisse.draw.raster import DepthBuffer, averaged, rasterise
 from plisse.draw.render import OVERSAMPLE, Rendering
 from plisse.draw.shade import occlusion
 from plisse.geometry.mesh import ReferenceMesh
@@ -79,7 +79,7 @@ def _rendered(structure: PleatedStructure, mesh: ReferenceMesh, shares: np.ndarr
     tint[~np.isfinite(shares)] = UNKNOWN
     image = _painted(paper, normals, tint, face_of)
     _glaze(image, paper, pane, camera.project(mesh.normals))
-    return Rendering(_halved(image), paper, camera, scale, low, (pleats - low) * scale)
+    return Rendering(averaged(image, OVERSAMPLE), paper, camera, scale, low, (pleats - low) * scale)
 
 
 def _painted(paper: DepthBuffer, normals: np.ndarray, tint: np.ndarray, face_of: np.ndarray) -> np.ndarray:
@@ -108,15 +108,6 @@ def _glaze(image: np.ndarray, paper: DepthBuffer, pane: DepthBuffer, normals: np
     share = np.where(below[:, 3] > 0, IN_FRONT, ALONE)[:, None]
     image[row, column, :3] = np.where(below[:, 3:] > 0, (1 - share) * below[:, :3] + share * colour, colour)
     image[row, column, 3] = np.where(below[:, 3] > 0, 1, ALONE)
-
-
-def _halved(image: np.ndarray) -> np.ndarray:
-    """Blocks of pixels averaged, colours weighted by opacity."""
-    height, width = image.shape[0] // OVERSAMPLE, image.shape[1] // OVERSAMPLE
-    blocks = image.reshape(height, OVERSAMPLE, width, OVERSAMPLE, 4)
-    opacity = blocks[..., 3:].sum(axis=(1, 3))
-    colour = (blocks[..., :3] * blocks[..., 3:]).sum(axis=(1, 3)) / np.maximum(opacity, 1e-6)
-    return np.concatenate([colour, opacity / OVERSAMPLE**2], axis=-1)
 
 
 def _draw_creases(axes, picture: Rendering, structure: PleatedStructure, corner: np.ndarray) -> None:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-__all__ = ["DepthBuffer", "rasterise"]
+__all__ = ["DepthBuffer", "averaged", "rasterise"]
 
 CHUNK = 3_000_000
 
@@ -90,3 +90,12 @@ def _chunks(ends: np.ndarray):
         stop = max(start + 1, int(np.searchsorted(ends, done + CHUNK)))
         yield start, stop
         start = stop
+
+
+def averaged(image: np.ndarray, block: int) -> np.ndarray:
+    """Blocks of pixels (H, W, 4) averaged, colours weighted by opacity."""
+    height, width = image.shape[0] // block, image.shape[1] // block
+    blocks = image.reshape(height, block, width, block, 4)
+    opacity = blocks[..., 3:].sum(axis=(1, 3))
+    colour = (blocks[..., :3] * blocks[..., 3:]).sum(axis=(1, 3)) / np.maximum(opacity, 1e-6)
+    return np.concatenate([colour, opacity / block**2], axis=-1)

@@ -5,7 +5,7 @@ from io import BytesIO
 import numpy as np
 
 from plisse.draw.camera import Camera
-from plisse.draw.raster import rasterise
+from plisse.draw.raster import averaged, rasterise
 from plisse.draw.shade import occlusion, paper_colour
 from plisse.measure.planarity import face_normals
 from plisse.structure.pleated import PleatedStructure
@@ -44,7 +44,7 @@ def thumbnail(structure: PleatedStructure) -> bytes:
     image[row, column, :3] = paper_colour(towards[which], front[which], light, light)
     image[row, column, 3] = 1
     stream = BytesIO()
-    pixels = np.round(255 * np.clip(_reduced(image), 0, 1)).astype(np.uint8)[::-1]
+    pixels = np.round(255 * np.clip(averaged(image, OVERSAMPLE), 0, 1)).astype(np.uint8)[::-1]
     Image.fromarray(pixels).save(stream, "PNG")
     return stream.getvalue()
 
@@ -55,12 +55,3 @@ def _view(vertices: np.ndarray) -> Camera:
     long, middle, short = (axis * np.sign(axis[np.argmax(np.abs(axis))]) for axis in axes.T[::-1])
     direction = VIEW @ np.stack([long, middle, short])
     return Camera.looking_from(direction, short)
-
-
-def _reduced(image: np.ndarray) -> np.ndarray:
-    """Blocks of pixels averaged, colours weighted by opacity."""
-    height, width = image.shape[0] // OVERSAMPLE, image.shape[1] // OVERSAMPLE
-    blocks = image.reshape(height, OVERSAMPLE, width, OVERSAMPLE, 4)
-    opacity = blocks[..., 3:].sum(axis=(1, 3))
-    colour = (blocks[..., :3] * blocks[..., 3:]).sum(axis=(1, 3)) / np.maximum(opacity, 1e-6)
-    return np.concatenate([colour, opacity / OVERSAMPLE**2], axis=-1)

@@ -14,7 +14,7 @@ from plisse.io.polylines import read_polyline
 from plisse.io.surface_consistency import check_surface_design
 from plisse.recipe import AsymptoticDesign, Design, Points, Recipe, Spline, SurfaceDesign
 
-__all__ = ["checked_design", "design_from_dict", "parse_assignment", "read_design"]
+__all__ = ["checked_design", "design_from_dict", "parse_assignment", "read_design", "section_from_options"]
 
 
 def checked_design(recipe: Recipe | dict | str | Path) -> Recipe:
@@ -70,6 +70,16 @@ def design_from_dict(data: dict, base: str | Path = ".") -> Recipe:
     except msgspec.ValidationError as error:
         raise InvalidDesign(sentence(str(error), data)) from None
     return check_design(_with_points(curved, Path(base)))
+
+
+def section_from_options(name: str, options: dict):
+    """The section of that name with the options that are not None; raises InvalidDesign as for a file."""
+    data = {name: {key: value for key, value in options.items() if value is not None}}
+    refuse_non_finite(data)
+    try:
+        return getattr(msgspec.convert(data, Design), name)
+    except msgspec.ValidationError as error:
+        raise InvalidDesign(sentence(str(error), data)) from None
 
 
 def parse_assignment(text: str) -> tuple[list[str], object]:

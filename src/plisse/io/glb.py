@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
+from plisse.draw.corners import corner_triangles
 from plisse.io.atomic import written
-from plisse.io.gltf import LINES, TRIANGLES, Buffer, corner_triangles, one_mesh, primitive, upright
+from plisse.io.gltf import LINES, TRIANGLES, Buffer, one_mesh, primitive, upright
 from plisse.measure.folds import assignments
 from plisse.measure.planarity import face_normals
 from plisse.structure.topology import Topology

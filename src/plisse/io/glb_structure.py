@@ -5,8 +5,9 @@ from pathlib import Path
 import numpy as np
 
 from plisse.draw.colours import quality
+from plisse.draw.corners import corner_triangles
 from plisse.io.atomic import written
-from plisse.io.gltf import LINES, TRIANGLES, Buffer, corner_triangles, linear, one_mesh, primitive, upright
+from plisse.io.gltf import LINES, TRIANGLES, Buffer, linear, one_mesh, primitive, upright
 from plisse.measure.folds import assignments
 from plisse.measure.planarity import face_normals, planarity_defect
 from plisse.measure.sectors import angle_defect

@@ -12,9 +12,8 @@ import numpy as np
 
 from plisse.draw.colours import MOUNTAIN, PAPER, VALLEY, rgb
 from plisse.recipe import MILLIMETRES
-from plisse.structure.topology import Topology
 
-__all__ = ["LINES", "TRIANGLES", "Buffer", "corner_triangles", "linear", "materials", "one_mesh", "primitive", "upright"]
+__all__ = ["LINES", "TRIANGLES", "Buffer", "linear", "materials", "one_mesh", "primitive", "upright"]
 
 FLOAT, UNSIGNED = 5126, 5125
 LINES, TRIANGLES = 1, 4
@@ -24,18 +23,6 @@ ARRAY, ELEMENTS = 34962, 34963
 def upright(vertices: np.ndarray, units: str) -> np.ndarray:
     """The same points (…, 3) in metres, z of ours as y of glTF."""
     return vertices[..., [0, 2, 1]] * [1, 1, -1] * (MILLIMETRES[units] / 1000)
-
-
-def corner_triangles(topology: Topology) -> np.ndarray:
-    """Triangles (T, 3) of corners, each face a fan from its first corner."""
-    start = topology.quads.size
-    quads = np.arange(start).reshape(-1, 4)
-    parts = [quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]
-    for hub in topology.hubs:
-        fan = np.arange(1, len(hub) - 1)
-        parts.append(start + np.stack([0 * fan, fan, fan + 1], axis=1))
-        start += len(hub)
-    return np.concatenate(parts)
 
 
 def primitive(mode: int, attributes: dict, indices: int, material: int, targets: list[dict] | None = None) -> dict:

@@ -11,6 +11,7 @@ from scipy.sparse.csgraph import connected_components
 
 from plisse.errors import InvalidStructure
 from plisse.measure.folds import fold_angles
+from plisse.structure.incidence import edge_lookup
 from plisse.structure.topology import Topology
 
 __all__ = ["Corners", "folding_evidence", "labelled_topology", "oriented"]
@@ -88,15 +89,8 @@ def folding_evidence(vertices: np.ndarray, faces: list[list[int]]):
     Pleats fold further than the smooth strips between them bend at their rulings.
     """
     topology = labelled_topology(len(vertices), faces, lambda start, end: np.zeros(len(start)))
-    key = np.sort(topology.edges.vertices, axis=1) @ [len(vertices), 1]
-    order = np.argsort(key)
-    angle = np.abs(fold_angles(topology, vertices))[order]
-
-    def evidence(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-        wanted = np.minimum(start, end) * len(vertices) + np.maximum(start, end)
-        return angle[np.searchsorted(key[order], wanted)]
-
-    return evidence
+    edge, angle = edge_lookup(topology), np.abs(fold_angles(topology, vertices))
+    return lambda start, end: angle[edge(start, end)]
 
 
 def _mean_by_family(values: np.ndarray, piece: np.ndarray, family: np.ndarray) -> np.ndarray:

@@ -7,7 +7,7 @@ from string import Template
 
 import numpy as np
 
-from plisse.draw.camera import best_view
+from plisse.draw.camera import Camera, best_view
 from plisse.draw.colour_maps import ColourMap, colour_maps
 from plisse.draw.page_numbers import Entry, entries, summary
 from plisse.draw.page_plots import history_svg, key_svg, measured, sheet_svg
@@ -30,7 +30,7 @@ def report_page(structure: PleatedStructure, report: Report, *, title: str = "st
     return Template(resource("page.html")).substitute(
         title=escape(title or "structure"), style=resource("page.css"), script=resource("viewer.js"),
         status=report.status, summary=escape(summary(report)), notes=_notes(report),
-        still=_still(structure), choices=_choices(maps), scales="\n".join(_scale(found) for found in maps.values()),
+        still=_still(structure, camera), choices=_choices(maps), scales="\n".join(_scale(found) for found in maps.values()),
         numbers="\n".join(_row(entry) for entry in entries(report)), sections=_sections(structure, report),
         scene=scene_json(structure, camera, maps.values()), footer=_footer(report))
 
@@ -47,11 +47,11 @@ def _sentence(note: str) -> str:
     return note[:1].upper() + note[1:] + ("" if note.endswith(".") else ".")
 
 
-def _still(structure: PleatedStructure) -> str:
+def _still(structure: PleatedStructure, camera: Camera) -> str:
     from PIL import Image
 
     out = BytesIO()
-    image = Image.fromarray(picture(structure, style=Style(size=STILL))).convert("RGB")
+    image = Image.fromarray(picture(structure, camera=camera, style=Style(size=STILL))).convert("RGB")
     image.quantize(255, dither=Image.Dither.FLOYDSTEINBERG).save(out, format="PNG", optimize=True)
     return b64encode(out.getvalue()).decode()
 

@@ -7,6 +7,7 @@ import numpy as np
 from plisse.draw.colours import PAPER, rgb
 from plisse.errors import InvalidDesign
 from plisse.io.atomic import written
+from plisse.io.gltf import upright
 from plisse.io.threemf import write_package
 from plisse.recipe import MILLIMETRES
 from plisse.transform.plates import Plates
@@ -60,7 +61,7 @@ def _write_glb(parts: list[Solid], path: Path, title: str, units: str) -> None:
     material = trimesh.visual.material.PBRMaterial(baseColorFactor=[*rgb(PAPER), 1.0], metallicFactor=0.0,
                                                    roughnessFactor=0.9)
     for number, part in enumerate(parts, 1):
-        corners = part.vertices[part.triangles][..., [0, 2, 1]] * [1, 1, -1] * (MILLIMETRES[units] / 1000)
+        corners = upright(part.vertices[part.triangles], units)
         # corners of their own for every triangle: plates have sharp edges
         mesh = trimesh.Trimesh(corners.reshape(-1, 3), np.arange(corners.size // 3).reshape(-1, 3), process=False)
         mesh.visual = trimesh.visual.TextureVisuals(material=material)

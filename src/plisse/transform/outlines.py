@@ -8,6 +8,7 @@ import numpy as np
 from plisse.geometry.vectors import dot, norm, unit
 from plisse.measure.folds import fold_angles
 from plisse.measure.planarity import face_normals
+from plisse.structure.incidence import edges_of_corners
 from plisse.structure.topology import Topology
 
 __all__ = ["Outlines"]
@@ -32,11 +33,7 @@ class Outlines:
     @cached_property
     def edge(self) -> np.ndarray:
         """The edge (C,) of the topology that leaves each corner."""
-        edges, corners, count = self.topology.edges, self.topology.corners, self.topology.vertex_count
-        key = edges.vertices.min(axis=1) * count + edges.vertices.max(axis=1)
-        order = np.argsort(key)
-        wanted = np.minimum(corners.vertex, corners.next) * count + np.maximum(corners.vertex, corners.next)
-        return order[np.searchsorted(key[order], wanted)]
+        return edges_of_corners(self.topology)[0]
 
     @cached_property
     def neighbour(self) -> np.ndarray:
