@@ -168,13 +168,12 @@ def sampled(found: WholeSurface, mesh: ReferenceMesh, surface: Reference, sample
     structure = PleatedStructure(fine.grid.topology, fine.vertices)
     normals, outward = (field.reshape(-1, 3)[fine.grid.used] for field in (fine.normals, fine.outward))
     inclination = crease_inclinations(structure.topology, structure.vertices, normals, outward)
-    coverage, _ = lies_over(structure, mesh, surface, layout.sizes.amplitude)
+    coverage, deviation = lies_over(structure, mesh, surface, layout.sizes.amplitude)
     columns = fine.grid.shape[1]
     notes = () if columns >= samples else (f"pattern.samples = {samples} was not reached: with more than {columns} columns "
                                            "the structure is not exact and regular any more",)
     return replace(found, structure=structure, rows=fine.grid.rows, inclination=inclination, coverage=coverage,
-                   notes=found.notes + notes,
-                   deviation=mid_surface_deviation(surface, structure.vertices, structure.topology.quads))
+                   deviation=deviation, notes=found.notes + notes)
 
 
 def made_principal(found: WholeSurface, mesh: ReferenceMesh, surface: Reference, overhang: bool) -> WholeSurface:

@@ -10,12 +10,12 @@ from plisse.draw.row import write_row
 from plisse.draw.runs import Run, lettered_runs
 from plisse.measure.intersection import intersecting_faces
 from plisse.structure.pleated import PleatedStructure
+from plisse.transform.collisions import DESIGNED
 from plisse.transform.flex import Motion
 
 __all__ = ["designed_runs", "motion_camera", "shown_percents", "write_motion_strip"]
 
 SHOWN = 5
-DESIGNED = 100.0
 
 
 def write_motion_strip(motion: Motion, path: str | Path, *, title: str = "") -> None:

@@ -115,7 +115,7 @@ def _draw_creases(axes, picture: Rendering, structure: PleatedStructure, corner:
 
     lines = []
     for crease in structure.topology.creases:
-        chain = np.append(crease.vertices, crease.vertices[0]) if crease.closed else crease.vertices
+        chain = crease.path
         lines += [part + corner for part in picture.visible(structure.vertices[chain])]
     edges = structure.topology.edges
     strip = structure.vertices[edges.vertices[~edges.is_crease]]

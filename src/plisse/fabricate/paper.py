@@ -4,8 +4,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from plisse.geometry.vectors import cross_flat
 from plisse.measure.folds import assignments
@@ -63,16 +61,11 @@ class Paper:
 
     def joined_over(self, chosen: np.ndarray, inside: np.ndarray | None = None) -> np.ndarray:
         """Component numbers (F,) of faces joined over chosen inner edges (E,), −1 outside the mask `inside` (F,)."""
-        edges, count = self.topology.edges, self.topology.face_count
-        first, second = edges.faces[chosen & ~edges.is_boundary].T
-        if inside is not None:
-            both = inside[first] & inside[second]
-            first, second = first[both], second[both]
-        links = coo_array((np.ones(len(first)), (first, second)), shape=(count,) * 2)
-        _, label = connected_components(links, directed=False)
         if inside is None:
-            return label
-        out = np.full(count, -1)
+            return self.topology.joined_over(chosen)
+        edges = self.topology.edges
+        label = self.topology.joined_over(chosen & ~edges.is_boundary & inside[edges.faces].all(axis=1))
+        out = np.full(self.topology.face_count, -1)
         out[inside] = np.unique(label[inside], return_inverse=True)[1]
         return out
 

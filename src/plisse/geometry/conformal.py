@@ -50,7 +50,8 @@ def flattened_tube(mesh: ReferenceMesh) -> tuple[np.ndarray, float]:
     The period comes second. v is harmonic and constant along the two rims, u conjugate to it; area and orientation are
     those of the mesh, which must be an annulus.
     """
-    slopes, matrix = gradients(mesh), _cotangents(mesh, gradients(mesh))
+    slopes = gradients(mesh)
+    matrix = _cotangents(mesh, slopes)
     low, high = mesh.boundary_loops
     v = np.zeros(len(mesh.vertices))
     v[high] = 1.0

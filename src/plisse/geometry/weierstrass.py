@@ -74,10 +74,6 @@ class MinimalSurface:
         """Mask (N,) of the places in the rectangle."""
         return in_rectangle(places, self.domain)
 
-    def straightening(self, places: np.ndarray) -> np.ndarray:
-        """dw/dz = √(i f g′) (N,), up to its sign: where Re w or Im w is constant, curves are asymptotic."""
-        return np.sqrt(1j * self._f(places)[0] * self._g(places)[1])
-
     @cached_property
     def _f(self) -> Holomorphic:
         return holomorphic(self.f, "surface.weierstrass.f")

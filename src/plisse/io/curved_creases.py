@@ -35,7 +35,7 @@ def _pieces(topology: Topology, points: np.ndarray, edges: np.ndarray) -> np.nda
     """Control points (E, 4, d) of the given crease edges (E, 2), from their first end to their second."""
     ends, pieces = [], []
     for crease in topology.creases:
-        path = np.append(crease.vertices, crease.vertices[0]) if crease.closed else crease.vertices
+        path = crease.path
         controls = bezier_through(points[crease.vertices], crease.closed)
         ends.append(np.stack([path[:-1], path[1:]], axis=1))
         pieces.append(np.stack([controls[k:k + len(controls) - 1:3][:len(path) - 1] for k in range(3)]

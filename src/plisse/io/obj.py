@@ -44,7 +44,7 @@ def write_obj(structure: PleatedStructure, path: str | Path, *, title: str = "",
 
 def _polylines(chains: tuple[Polyline, ...]) -> list[str]:
     """One line of text per polyline."""
-    closed = (np.append(chain.vertices, chain.vertices[0]) if chain.closed else chain.vertices for chain in chains)
+    closed = (chain.path for chain in chains)
     return ["l " + " ".join(str(v + 1) for v in vertices.tolist()) for vertices in closed]
 
 

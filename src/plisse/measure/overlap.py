@@ -31,8 +31,9 @@ def development_overlap(topology: Topology, flat: np.ndarray) -> Overlap:
     sheets = [shapely.union_all([shapely.Polygon(flat[piece.vertices[loop]]) for loop in boundary_loops(piece.topology)])
               for piece in pieces if len(pieces) > 1]
     for one, other in combinations(sheets, 2):
-        if one.intersection(other).area > 1e-9 * one.area:
-            place = one.intersection(other).representative_point()
+        met = one.intersection(other)
+        if met.area > 1e-9 * one.area:
+            place = met.representative_point()
             return Overlap(True, (float(place.x), float(place.y)))
     return Overlap(False)
 

@@ -13,14 +13,13 @@ from plisse.geometry.polyline import arc_length
 from plisse.geometry.vectors import unit
 from plisse.recipe import Curve, March
 from plisse.solve.living import Extent, living_part
+from plisse.solve.masked import MaskedGrid
 from plisse.solve.principal.closed import close_crease, closed_crease
 from plisse.solve.principal.march import Crease, next_crease
 from plisse.solve.principal.seed import rectifying_binormals, seed_strip
 from plisse.solve.principal.series import SmoothCurve
 from plisse.solve.principal.strip import Strip, edge_directions
-from plisse.structure.grid import grid
 from plisse.structure.pleated import PleatedStructure
-from plisse.structure.topology import Topology
 
 __all__ = ["Marched", "marched_design"]
 
@@ -152,7 +151,5 @@ def _assembled(rows: dict[int, np.ndarray], extents: dict[int, Extent], closed: 
     mask = np.zeros((len(numbers) - 1, columns - (not closed)), bool)
     for row, number in zip(mask, numbers, strict=False):
         row[extents[number].first:extents[number].end] = True
-    whole = grid(len(numbers), columns, closed_creases=closed, mask=mask)
-    used = np.unique(whole.quads)
-    ordering = None if whole.ordering is None else whole.ordering[used]
-    return PleatedStructure(Topology(len(used), np.searchsorted(used, whole.quads), ordering=ordering), vertices[used])
+    part = MaskedGrid.of((len(numbers), columns), closed, mask)
+    return PleatedStructure(part.topology, vertices[part.used])

@@ -112,7 +112,7 @@ def _next_corner(topology: Topology) -> np.ndarray:
 
 
 def _line_keys(line: Polyline, vertex_count: int) -> np.ndarray:
-    vertices = np.append(line.vertices, line.vertices[0]) if line.closed else line.vertices
+    vertices = line.path
     return _edge_keys(np.stack([vertices[:-1], vertices[1:]], axis=1), vertex_count)
 
 

@@ -16,6 +16,11 @@ class Polyline:
     vertices: np.ndarray
     closed: bool = False
 
+    @property
+    def path(self) -> np.ndarray:
+        """The vertices, with the first one again at the end of closed chains."""
+        return np.append(self.vertices, self.vertices[0]) if self.closed else self.vertices
+
 
 def joined(ends: np.ndarray) -> tuple[Polyline, ...]:
     """Polylines made of edges (E, 2), in the order of their first vertex, each ordered along itself."""

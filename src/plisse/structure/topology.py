@@ -129,9 +129,17 @@ class Topology:
     @cached_property
     def piece_of_faces(self) -> np.ndarray:
         """Number (F,) of the piece that every face belongs to; pieces hang together over edges."""
-        edges = self.edges
-        inner = ~edges.is_boundary
-        links = coo_array((np.ones(inner.sum()), edges.faces[inner].T), shape=(self.face_count,) * 2)
+        return self.joined_over(~self.edges.is_boundary)
+
+    @cached_property
+    def strip_of_faces(self) -> np.ndarray:
+        """Number (F,) of the strip that every face belongs to; strips hang together over rulings."""
+        return self.joined_over(~self.edges.is_crease)
+
+    def joined_over(self, chosen: np.ndarray) -> np.ndarray:
+        """Number (F,) of the group that every face belongs to; groups hang together over the chosen inner edges (E,)."""
+        pairs = self.edges.faces[chosen & ~self.edges.is_boundary]
+        links = coo_array((np.ones(len(pairs)), pairs.T), shape=(self.face_count,) * 2)
         return connected_components(links, directed=False)[1].astype(np.int64)
 
     @property

@@ -27,11 +27,6 @@ class Shelf:
         self._paths: dict[str, Path] = {}
         self._directory: Path | None = None
 
-    @property
-    def names(self) -> list[str]:
-        """Names by which designs may mean the meshes."""
-        return list(self._paths)
-
     def put(self, name: str, content: bytes) -> str:
         """The name by which designs may mean an uploaded mesh; raises InvalidMesh for what is too large or no mesh file."""
         suffix = next((known for known in MESH_FORMATS if name.lower().endswith(known)), None)

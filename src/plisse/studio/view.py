@@ -3,8 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from plisse.draw.colour_maps import ColourMap
 from plisse.draw.corners import corner_triangles
@@ -60,9 +58,7 @@ def flat_view(structure: PleatedStructure) -> View:
 def tinted(structure: PleatedStructure, colour: ColourMap) -> Tint:
     """The structure coloured by a map, every face on its own."""
     corners, scale, shares = structure.topology.corners, colour.scale, np.linspace(0, 1, SHADES)
-    low, high = np.log10([scale.low, scale.high]) if scale.logarithmic else (scale.low, scale.high)
-    values = low + shares * (high - low)
-    bar = colour.colours(10**values if scale.logarithmic else values)
+    bar = colour.colours(scale.values(shares))
     triangles = corner_triangles(structure.topology).astype(np.uint32)
     return Tint(structure.vertices[corners.vertex].astype(np.float32), triangles,
                 scale.shares(colour.values).astype(np.float32), colour.title, scale.ticks(),
@@ -71,19 +67,10 @@ def tinted(structure: PleatedStructure, colour: ColourMap) -> Tint:
 
 def _view(topology: Topology, points: np.ndarray, letters: np.ndarray) -> View:
     corners, edges = topology.corners, topology.edges
-    key = _strips(topology)[corners.face] * topology.vertex_count + corners.vertex
+    key = topology.strip_of_faces[corners.face] * topology.vertex_count + corners.vertex
     used, place = np.unique(key, return_inverse=True)
     paper = points[used % topology.vertex_count]
     letters = np.where(edges.is_crease | edges.is_boundary, letters, "R")
     lines = {name: points[edges.vertices[letters == letter]].astype(np.float32) for name, letter in LETTERS.items()}
     lines["ruling"] = points[edges.vertices[letters == "R"]].astype(np.float32)
     return View(paper.astype(np.float32), place[corner_triangles(topology)].astype(np.uint32), lines)
-
-
-def _strips(topology: Topology) -> np.ndarray:
-    """Number (F,) of the strip that every face belongs to: faces hang together over rulings."""
-    edges = topology.edges
-    pairs = edges.faces[~edges.is_crease & ~edges.is_boundary]
-    links = coo_array((np.ones(len(pairs)), pairs.T), shape=(topology.face_count,) * 2)
-    return connected_components(links, directed=False)[1].astype(np.int64)
-

@@ -18,7 +18,7 @@ __all__ = ["Worker"]
 PATIENCE = 2.0  # seconds that a stale request may still take before its process is ended
 START = 60.0
 THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
-COMMAND = "import sys; from plisse.studio.child import main; main()"
+COMMAND = "from plisse.studio.child import main; main()"
 
 Deliver = Callable[[Request, Answer | Failure | Stage], None]
 
@@ -47,11 +47,6 @@ class Worker:
             self._waiting.pop(request.lane, None)
             self._waiting[request.lane] = (self._count, request)
             self._changed.notify()
-
-    def forget(self, lane: str) -> None:
-        """Take a waiting question back."""
-        with self._changed:
-            self._waiting.pop(lane, None)
 
     @property
     def pid(self) -> int | None:

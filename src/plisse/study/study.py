@@ -13,7 +13,7 @@ from plisse.study.best import best, described, write_best
 from plisse.study.outcome import OUTCOMES
 from plisse.study.plan import Map, Plan, read_plan
 from plisse.study.samples import samples, value_at
-from plisse.study.store import COLUMNS, STORE, Row, Store, locked
+from plisse.study.store import COLUMNS, STORE, WAITING, Row, Store, locked
 
 __all__ = ["FILES", "Row", "Study", "run"]
 
@@ -123,7 +123,7 @@ def _make(plan: Plan, planned: list, directory: Path, scheduler: str | None, wor
 
     with Store(directory) as store:
         store.plan(planned, again=("timeout", "memory", "failed") if retry else ())
-        waiting = len(store.waiting())
+        waiting = store.counts().get(WAITING, 0)
         if not waiting:
             return
         if progress:

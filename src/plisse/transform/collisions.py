@@ -1,5 +1,6 @@
 """How far a mechanism moves before its faces run into each other (§2.5)."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,7 +9,7 @@ from plisse.measure.intersection import intersecting_faces
 from plisse.structure.place import place_of
 from plisse.transform.mechanism import FLAT_FOLDED, Mechanism
 
-__all__ = ["FreeRange", "free_range"]
+__all__ = ["DESIGNED", "FreeRange", "first_of", "free_range", "narrowed"]
 
 DESIGNED = 100.0
 STEP = 2.0
@@ -55,16 +56,17 @@ def _first_collision(mechanism: Mechanism, goal: float) -> tuple[float, tuple[in
         some = stops[start:start + AT_ONCE]
         for percent, vertices in zip(some.tolist(), mechanism.states(some), strict=True):
             if struck := _first_pair(mechanism, vertices):
-                return _narrowed(mechanism, free, percent, struck)
+                return narrowed(lambda middle: _collision(mechanism, middle), free, percent, struck, TOLERANCE)
             free = percent
     return goal, None
 
 
-def _narrowed(mechanism: Mechanism, free: float, struck_at: float,
-              struck: tuple[int, int]) -> tuple[float, tuple[int, int]]:
-    while abs(struck_at - free) > TOLERANCE:
+def narrowed(collision: Callable[[float], tuple[int, int] | None], free: float, struck_at: float,
+             struck: tuple[int, int], tolerance: float) -> tuple[float, tuple[int, int]]:
+    """The last free percent between a free one and one with a collision, by halving, and the pair that meets beyond it."""
+    while abs(struck_at - free) > tolerance:
         middle = 0.5 * (free + struck_at)
-        if found := _collision(mechanism, middle):
+        if found := collision(middle):
             struck_at, struck = middle, found
         else:
             free = middle
@@ -76,7 +78,11 @@ def _collision(mechanism: Mechanism, percent: float) -> tuple[int, int] | None:
 
 
 def _first_pair(mechanism: Mechanism, vertices: np.ndarray) -> tuple[int, int] | None:
-    pairs = intersecting_faces(mechanism.topology, vertices)
+    return first_of(intersecting_faces(mechanism.topology, vertices))
+
+
+def first_of(pairs: np.ndarray) -> tuple[int, int] | None:
+    """The first of pairs (K, 2), None where there are none."""
     return (int(pairs[0, 0]), int(pairs[0, 1])) if len(pairs) else None
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from plisse.errors import InvalidDesign
 from plisse.measure.convex_overlap import ConvexSolids
-from plisse.transform.collisions import FreeRange
+from plisse.transform.collisions import DESIGNED, FreeRange, first_of, narrowed
 from plisse.transform.flex import Motion, flex
 from plisse.transform.mechanism import FLAT_FOLDED, turning
 from plisse.transform.outlines import Outlines
@@ -15,7 +15,6 @@ from plisse.transform.plates import TOUCHING, Plates
 
 __all__ = ["HingedRange", "hinged_range", "placed"]
 
-DESIGNED = 100.0
 STEP = 5.0
 TOLERANCE = 0.1
 
@@ -87,14 +86,9 @@ def _first_collision(plates: Plates, motion: Motion, end: float) -> tuple[float,
     free = DESIGNED
     for percent in stops.tolist():
         struck = _struck(plates, motion, percent)
-        if struck is None:
-            free = percent
-            continue
-        while abs(percent - free) > TOLERANCE:
-            middle = 0.5 * (free + percent)
-            found = _struck(plates, motion, middle)
-            free, percent, struck = (middle, percent, struck) if found is None else (free, middle, found)
-        return free, struck
+        if struck:
+            return narrowed(lambda middle: _struck(plates, motion, middle), free, percent, struck, TOLERANCE)
+        free = percent
     return end, None
 
 
@@ -102,5 +96,4 @@ def _struck(plates: Plates, motion: Motion, percent: float) -> tuple[int, int] |
     """Two plates that run into each other at a percent, if there are any."""
     lower, upper = (outline[0][plates.corners] for outline in placed(plates, motion.at(percent)))
     solids = ConvexSolids(lower, upper)
-    pairs = solids.overlapping(solids.near(), TOUCHING * plates.structure.diagonal)
-    return (int(pairs[0, 0]), int(pairs[0, 1])) if len(pairs) else None
+    return first_of(solids.overlapping(solids.near(), TOUCHING * plates.structure.diagonal))

@@ -159,7 +159,7 @@ def _prescribed(topology: Topology, lines, number: int, factors, name: str, kind
     if not 0 <= number < len(lines):
         raise InvalidStructure(f"there is no {kind} {number + 1}; the structure has {len(lines)}")
     line = lines[number]
-    path = np.append(line.vertices, line.vertices[0]) if line.closed else line.vertices
+    path = line.path
     edges = edge_lookup(topology)(path[:-1], path[1:])
     values = np.asarray(factors, dtype=float)
     if values.ndim > 1 or values.size not in (1, len(edges)):

@@ -5,8 +5,6 @@ from functools import cached_property
 from typing import Literal
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from plisse.errors import Infeasible, InvalidDesign
 from plisse.geometry.vectors import cross_flat, dot, norm, unit
@@ -102,10 +100,7 @@ class Plates:
     @cached_property
     def strips(self) -> np.ndarray:
         """Number (F,) of the strip between two creases that each plate belongs to, from 0."""
-        edges = self.structure.topology.edges
-        pairs = edges.faces[~edges.is_crease & ~edges.is_boundary]
-        links = coo_array((np.ones(len(pairs)), pairs.T), shape=(self.count,) * 2)
-        _, label = connected_components(links, directed=False)
+        label = self.structure.topology.strip_of_faces
         _, first = np.unique(label, return_index=True)
         return np.argsort(np.argsort(first))[label]
 

@@ -178,7 +178,7 @@ def _strip(lower: np.ndarray, upper: np.ndarray, closed: bool) -> np.ndarray:
 
 
 def _segments(line: Polyline) -> np.ndarray:
-    path = np.append(line.vertices, line.vertices[0]) if line.closed else line.vertices
+    path = line.path
     return np.stack([path[:-1], path[1:]], axis=1)
 
 

@@ -137,7 +137,7 @@ def _carried(points: np.ndarray, closed: bool, reference: np.ndarray | None) -> 
         binormals = rectifying_binormals(first, between.T[:, None], closed)
     except Infeasible:
         notes = ("its rectifying planes do not close, so the faces at its seam differ by an angle",)
-        points, between = np.concatenate([points, points[:1]]), between
+        points = np.concatenate([points, points[:1]])
         first, closed = points.T[:, None], False
         binormals = rectifying_binormals(first, between.T[:, None], False)
     edges = unit((np.roll(points, -1, axis=0) - points)[:None if closed else -1]).T[:, None]

@@ -8,8 +8,6 @@ sides, as across a leg of a singularity, the label repeats.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from plisse.errors import Infeasible
 from plisse.layout.asymptotic.bends import Bends
@@ -36,23 +34,14 @@ def labelled(net: Net, points: np.ndarray, bends: Bends) -> Labels:
     topology = net.topology
     edges = topology.edges
     ruling = ~edges.is_crease
-    strip = _strips(net)[edges.faces[:, 0]]
+    strip = topology.strip_of_faces[edges.faces[:, 0]]
     one, other = edges.vertices.T
     vote = np.bincount(strip[ruling], bends.facing(points, one[ruling], other[ruling]), strip.max() + 1)
     repeating = vote < 0
-    repeating[_strips(net)[len(topology.quads):]] = True
+    repeating[topology.strip_of_faces[len(topology.quads):]] = True
     repeats = ruling & repeating[strip]
     links = np.stack([net.crease[one[ruling]], net.crease[other[ruling]], np.where(repeats[ruling], 1, -1)], axis=1)
     return Labels(propagated(np.unique(links, axis=0), len(net.creases)), repeats)
-
-
-def _strips(net: Net) -> np.ndarray:
-    """Number (F,) of the strip of every face: strips hang together over rulings."""
-    edges = net.topology.edges
-    joint = ~edges.is_crease & ~edges.is_boundary
-    count = net.topology.face_count
-    graph = coo_array((np.ones(joint.sum()), edges.faces[joint].T), shape=(count, count))
-    return connected_components(graph, directed=False)[1]
 
 
 def propagated(links: np.ndarray, count: int) -> np.ndarray:
