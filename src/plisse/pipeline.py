@@ -6,13 +6,15 @@ from pathlib import Path
 import msgspec
 import numpy as np
 
-from plisse.arrangements import arranged_strips
 from plisse.assess import assess, overlap_notes, start_defects
-from plisse.asymptotic import along_asymptotic_curves
+from plisse.designs.arrangements import arranged_strips
+from plisse.designs.asymptotic import along_asymptotic_curves
+from plisse.designs.outcomes import broken_down, way_of
+from plisse.designs.surfaces import reconstructed
+from plisse.designs.varied import varied
 from plisse.errors import Infeasible
 from plisse.io.designs import checked_design
 from plisse.layout.guiding import Guiding, guiding
-from plisse.outcomes import broken_down, way_of
 from plisse.recipe import AsymptoticDesign, Curve, Design, March, Recipe, SurfaceDesign
 from plisse.result import Report, Result
 from plisse.solve.attempt import Start
@@ -28,8 +30,6 @@ from plisse.solve.workspace import Workspace
 from plisse.solve.zigzag import zigzag
 from plisse.stopwatch import Stopwatch
 from plisse.structure.pleated import PleatedStructure
-from plisse.surfaces import reconstructed
-from plisse.varied import varied
 
 __all__ = ["design"]
 

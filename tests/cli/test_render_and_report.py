@@ -8,7 +8,7 @@ from PIL import Image
 
 import plisse
 from plisse.cli import main
-from plisse.deviations import deviation_again
+from plisse.designs.deviations import deviation_again
 from plisse.draw.colour_maps import deviation_of
 from plisse.io.fold import write_fold
 from plisse.io.obj import write_obj

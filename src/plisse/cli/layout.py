@@ -42,12 +42,12 @@ def layout(
         Print nothing.
     """
     from plisse.cli.console import progress
+    from plisse.designs.reconstruction import laid_out_over, reference_surface
     from plisse.draw.candidates import write_candidates
     from plisse.errors import PlisseError
     from plisse.geometry.graph import GraphSurface
     from plisse.geometry.parametric import ParametricSurface
     from plisse.io.atomic import require_writable, written_together
-    from plisse.reconstruction import laid_out_over, reference_surface
 
     if count < 1:
         raise PlisseError(f"--count {count} leaves nothing to try; give a number from 1")

@@ -140,10 +140,10 @@ def _finish(model: Model, family: tuple[Member, ...], write: Callable[..., None]
 
     from plisse.assess import assess
     from plisse.cli.console import show_check
+    from plisse.designs.varied import scales_between
     from plisse.draw.family import write_family
     from plisse.io.atomic import require_writable, written_together
     from plisse.io.report import report_json
-    from plisse.varied import scales_between
 
     structure, picture = family[-1].structure, target.with_suffix(".png").name
     require_writable(target.parent, [target.name, picture])

@@ -105,7 +105,7 @@ def parse_size(text: str) -> tuple[int, int]:
 
 
 def _colour_map(file: Path, structure: PleatedStructure, name: str) -> ColourMap | None:
-    from plisse.deviations import deviation_again
+    from plisse.designs.deviations import deviation_again
     from plisse.draw.colour_maps import colour_maps
     from plisse.errors import InvalidDesign
     from plisse.io.report import report_beside

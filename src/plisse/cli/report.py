@@ -35,7 +35,7 @@ def report(
         Print nothing.
     """
     from plisse.assess import assess, overlap_notes
-    from plisse.deviations import deviation_again
+    from plisse.designs.deviations import deviation_again
     from plisse.errors import PlisseError
     from plisse.io.atomic import require_writable, written
     from plisse.io.page import report_page

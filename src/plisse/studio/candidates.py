@@ -3,12 +3,12 @@
 import tempfile
 from pathlib import Path
 
+from plisse.designs.reconstruction import laid_out_over, reference_surface
 from plisse.draw.candidates import write_candidates
 from plisse.errors import InvalidDesign
 from plisse.geometry.graph import GraphSurface
 from plisse.geometry.parametric import ParametricSurface
 from plisse.recipe import SurfaceDesign
-from plisse.reconstruction import laid_out_over, reference_surface
 from plisse.solve.candidate import Candidate, centre_of
 from plisse.studio.bench import Progress
 

@@ -1,6 +1,7 @@
 """How far a structure is from what its recipe asked for, measured again from the recipe alone (Figs 17 and 20)."""
 
 
+from plisse.designs.reconstruction import edited_vertices, reference_surface
 from plisse.draw.colour_maps import ColourMap, deviation_from_guides, deviation_from_surface
 from plisse.errors import PlisseError
 from plisse.geometry.mesh import ReferenceMesh
@@ -8,7 +9,6 @@ from plisse.io.designs import design_from_dict
 from plisse.layout.guiding import guiding
 from plisse.measure.mid_surface import mid_surface_deviation
 from plisse.recipe import Design, SurfaceDesign
-from plisse.reconstruction import edited_vertices, reference_surface
 from plisse.result import Report
 from plisse.structure.pleated import PleatedStructure
 

@@ -6,6 +6,8 @@ import msgspec
 import numpy as np
 
 from plisse.assess import assess, overlap_notes, spread
+from plisse.designs.outcomes import broken_down
+from plisse.designs.reconstruction import deviation_of
 from plisse.errors import Infeasible
 from plisse.geometry.chart import Chart, FormulaChart, GraphChart
 from plisse.geometry.denoised import denoised_graph
@@ -23,9 +25,7 @@ from plisse.layout.asymptotic.feasibility import (
 )
 from plisse.layout.asymptotic.pattern import AsymptoticLayout, Sizes, lay_out
 from plisse.measure.mid_surface import mid_surface_deviation
-from plisse.outcomes import broken_down
 from plisse.recipe import AsymptoticDesign, AsymptoticSurface
-from plisse.reconstruction import deviation_of
 from plisse.result import Report, Result
 from plisse.solve.cutting import best_cut
 from plisse.solve.flatten import flatten

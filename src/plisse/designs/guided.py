@@ -4,8 +4,10 @@ import msgspec
 import numpy as np
 
 from plisse.assess import assess, overlap_notes, spread, start_defects
+from plisse.designs.families import SAMPLES, family_of
+from plisse.designs.outcomes import broken_down, way_of
+from plisse.designs.reconstruction import deviation_of, lies_over, overhang_notes
 from plisse.errors import Infeasible
-from plisse.families import SAMPLES, family_of
 from plisse.geometry.mesh import ReferenceMesh
 from plisse.geometry.polyline import distance_to_polyline
 from plisse.geometry.surface import Surface
@@ -14,9 +16,7 @@ from plisse.layout.family import Family
 from plisse.layout.family_columns import pattern_of
 from plisse.layout.family_outline import outlined
 from plisse.layout.rectangle import GAPS
-from plisse.outcomes import broken_down, way_of
 from plisse.recipe import SurfaceDesign
-from plisse.reconstruction import deviation_of, lies_over, overhang_notes
 from plisse.result import Overlay, Report, Result
 from plisse.solve.attempt import Start
 from plisse.solve.candidate import holes_of

@@ -4,18 +4,9 @@ import msgspec
 import numpy as np
 
 from plisse.assess import assess, overlap_notes
-from plisse.errors import Infeasible
-from plisse.geometry.graph import GraphSurface
-from plisse.geometry.mesh import ReferenceMesh
-from plisse.geometry.parametric import ParametricSurface
-from plisse.guided import guided
-from plisse.layout.automatic import Sizes, starting_rows
-from plisse.layout.coverage import AreaSamples
-from plisse.layout.positions import refuse_too_many
-from plisse.layout.rows import ChartedSurface
-from plisse.outcomes import broken_down
-from plisse.recipe import SurfaceDesign
-from plisse.reconstruction import (
+from plisse.designs.guided import guided
+from plisse.designs.outcomes import broken_down
+from plisse.designs.reconstruction import (
     as_chosen,
     chosen_layout,
     deviation_of,
@@ -28,6 +19,15 @@ from plisse.reconstruction import (
     sampled,
     solved_again,
 )
+from plisse.errors import Infeasible
+from plisse.geometry.graph import GraphSurface
+from plisse.geometry.mesh import ReferenceMesh
+from plisse.geometry.parametric import ParametricSurface
+from plisse.layout.automatic import Sizes, starting_rows
+from plisse.layout.coverage import AreaSamples
+from plisse.layout.positions import refuse_too_many
+from plisse.layout.rows import ChartedSurface
+from plisse.recipe import SurfaceDesign
 from plisse.result import Overlay, Result
 from plisse.solve.bad_start import fail_both_ways, surface_start
 from plisse.solve.cutting import best_cut

@@ -4,13 +4,13 @@ import msgspec
 import numpy as np
 
 from plisse.assess_strips import assess_strips
+from plisse.designs.families import guide_of
+from plisse.designs.outcomes import broken_down
+from plisse.designs.reconstruction import reference_surface
 from plisse.errors import Infeasible
-from plisse.families import guide_of
 from plisse.geometry.mesh import ReferenceMesh
 from plisse.layout.guiding import guiding
-from plisse.outcomes import broken_down
 from plisse.recipe import Design, Strips, SurfaceDesign
-from plisse.reconstruction import reference_surface
 from plisse.result import Result
 from plisse.solve.closed_form import closed_form
 from plisse.solve.marching import marched_design
