@@ -107,21 +107,20 @@ def _exactly(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, watch:
              workspace: Workspace) -> Result:
     """The best of the portfolio, to machine precision where the geometry allows it."""
     ahead = forecast(guide.pattern, guide.amplitude, recipe.solve.principal)
-    foreseen = ahead.warnings()
     outcome = solve(_plans(recipe, guide, workspace))
     best = outcome.best
     if best.attempt.vertices is None:
-        return broken_down(recipe, [best.attempt.message, *foreseen], watch, guide, zigzagged)
+        return broken_down(recipe, [best.attempt.message, *ahead.warnings()], watch, guide, zigzagged)
     watch.start("flatten", 0.6)
     structure = PleatedStructure(best.start.topology, best.attempt.vertices)
-    structure = flatten(structure, best_cut(structure, recipe.solve.cut))
+    structure = flatten(structure, best_cut(structure, recipe.solve.cut), workspace)
     report = _measured(recipe, best.start.guides(best.start.samples), guide.amplitude, structure, watch)
     # predictions about rulings are of no interest once a comfortable structure refutes them
-    remaining = foreseen if not best.is_comfortable else ahead.warnings_of_openings()
+    foreseen = ahead.warnings_of_openings() if best.is_comfortable and not report.reasons else ahead.warnings()
     warnings = guide.notes + _notes(best.start, guide) + overlap_notes(report)
     report = msgspec.structs.replace(
         report, start=start_defects(zigzagged), **way_of(outcome),
-        warnings=warnings + ([] if report.reasons else remaining),
+        warnings=warnings + ([] if report.reasons else foreseen),
         reasons=report.reasons + (foreseen if report.reasons else []))
     return Result(recipe, report, best.start.pattern, zigzagged, structure)
 

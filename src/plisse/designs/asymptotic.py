@@ -60,10 +60,10 @@ def along_asymptotic_curves(recipe: AsymptoticDesign, watch: Stopwatch, workspac
         found, tried = _solved(whole, layout, amplitude, workspace)
     except Infeasible as error:
         return broken_down(recipe, [str(error)], watch)
-    found, done = finer(found, rounds, workspace) if found.is_sound else (found, 0)
+    found, done = _refined(found, rounds, workspace, watch) if found.is_sound else (found, 0)
     watch.start("flatten", 0.7)
     structure = PleatedStructure(found.zigzag.topology, found.solved.vertices)
-    structure = flatten(structure, best_cut(structure))
+    structure = flatten(structure, best_cut(structure), workspace)
     watch.start("measure", 0.85)
     report = assess(structure, units=recipe.units)
     reasons = [*report.reasons, *_unfinished(found, amplitude)]
@@ -113,6 +113,22 @@ def _solved(whole: AsymptoticLayout, layout: AsymptoticLayout, amplitude: float,
     again, more = raised(shorter, amplitude, workspace)
     best, other = (again, found) if again.rank > found.rank else (found, again)
     return best, [*tried, *more, other.account]
+
+
+def _refined(found: Raised, rounds: int, workspace: Workspace, watch: Stopwatch) -> tuple[Raised, int]:
+    """The structure with twice as many columns, `rounds` times or as often as it stays sound, and how often it did."""
+    for done in range(rounds):
+        watch.start("layout", 0.35 + 0.3 * done / rounds)
+        try:
+            layout = found.layout.refined()
+            watch.start("solve", 0.37 + 0.3 * done / rounds)
+            after = finer(found, layout, workspace)
+        except Infeasible:
+            return found, done
+        if after is None:
+            return found, done
+        found = after
+    return found, rounds
 
 
 def _unfinished(found: Raised, amplitude: float) -> list[str]:

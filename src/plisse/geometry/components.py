@@ -10,18 +10,17 @@ __all__ = ["cross", "dot", "norm", "unit"]
 
 def dot(a, b):
     """Inner products a·b over the first axis, shape (…)."""
-    total = a[0] * b[0]
-    for x, y in zip(a[1:], b[1:], strict=True):
-        total = total + x * y
-    return total
+    return np.einsum("i...,i...->...", a, b)
 
 
 def cross(a, b):
     """Vector products a × b, shape (3, …)."""
-    out = np.empty(np.broadcast_shapes(a.shape, b.shape), np.result_type(a, b))
-    out[0] = a[1] * b[2] - a[2] * b[1]
-    out[1] = a[2] * b[0] - a[0] * b[2]
-    out[2] = a[0] * b[1] - a[1] * b[0]
+    shape = a.shape if a.shape == b.shape else np.broadcast_shapes(a.shape, b.shape)
+    out = np.empty(shape, np.result_type(a, b))
+    spare = np.empty(shape[1:], out.dtype)
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        np.multiply(a[j], b[k], out=out[i])
+        out[i] -= np.multiply(a[k], b[j], out=spare)
     return out
 
 

@@ -1,16 +1,17 @@
 """Seed curves of every kind a design can name, sampled at equal arc lengths."""
 
+from collections.abc import Callable
 from functools import singledispatch
 
 import numpy as np
 
 from plisse.errors import InvalidDesign
 from plisse.geometry.frames import curvature
-from plisse.geometry.polyline import arc_length, sample_evenly
+from plisse.geometry.polyline import arc_length, even_sampler
 from plisse.geometry.smooth import smoothed_polyline
 from plisse.recipe import Arc, Ellipse, Helix, Points, Spline, TorusKnot
 
-__all__ = ["seed_curve"]
+__all__ = ["seed_curve", "seed_sampler"]
 
 FINE = 600
 
@@ -20,13 +21,22 @@ def seed_curve(curve, count: int) -> np.ndarray:
 
     Raises InvalidDesign for straight curves: without curvature there is no side to evolve to.
     """
-    points = sample_evenly(control_points(curve), count, curve.closed)
-    length = arc_length(points, curve.closed)[-1]
-    turn = curvature(points, curve.closed).mean() * length
-    if turn < 1e-4:
-        raise InvalidDesign(f"the seed curve turns by {np.degrees(turn):.2g}° in all, so it is practically straight; "
-                            "give a curve that bends, for pleats follow its principal normals")
-    return points
+    return seed_sampler(curve)(count)
+
+
+def seed_sampler(curve) -> Callable[[int], np.ndarray]:
+    """`seed_curve` of one curve for any count."""
+    evenly = even_sampler(control_points(curve), curve.closed)
+
+    def sampled(count: int) -> np.ndarray:
+        points = evenly(count)
+        turn = curvature(points, curve.closed).mean() * arc_length(points, curve.closed)[-1]
+        if turn < 1e-4:
+            raise InvalidDesign(f"the seed curve turns by {np.degrees(turn):.2g}° in all, so it is practically straight; "
+                                "give a curve that bends, for pleats follow its principal normals")
+        return points
+
+    return sampled
 
 
 @singledispatch

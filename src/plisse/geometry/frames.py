@@ -1,6 +1,7 @@
 """Moving frames of polylines: curvature, torsion and binormals that pass through inflections (§2.1, §3.2)."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.linalg import lapack
@@ -85,8 +86,8 @@ def _with_ends(bent: np.ndarray, along: np.ndarray, first: np.ndarray, last: np.
     count = along.shape[1] + 2
     vectors, tangent = np.zeros((3, count)), np.empty((3, count))
     vectors[:, 1:-1], tangent[:, 1:-1] = bent, along
-    for place, edge, inner in ((0, first, along[:, 0]), (-1, last, along[:, -1])):
-        tangent[:, place] = 2 * (inner @ edge) / (edge @ edge) * edge - inner
+    edge, inner = np.stack([first, last], axis=1), along[:, [0, -1]]
+    tangent[:, [0, -1]] = 2 * components.dot(inner, edge) / components.dot(edge, edge) * edge - inner
     return vectors, tangent
 
 
@@ -97,15 +98,12 @@ def _solve_banded(weight: np.ndarray, stiffness: float, right: np.ndarray, close
         bands = stiffness * _second_difference_bands(count)
         bands[2] += weight
         return _definite(bands, right)
-    order = _folded(count)
-    rank = np.argsort(order)
-    bands = np.zeros((5, count))
-    for shift, value in ((0, 6.0), (1, -4.0), (2, 1.0)):
-        i = np.arange(count)
-        a, b = rank[i], rank[(i + shift) % count]
-        np.add.at(bands, (4 - np.abs(a - b), np.maximum(a, b)), stiffness * value)
+    order, bands = _periodic_second_difference_bands(count)
+    bands = stiffness * bands
     bands[4] += weight[order]
-    return _definite(bands, right[order])[rank]
+    solution = np.empty_like(right)
+    solution[order] = _definite(bands, right[order])
+    return solution
 
 
 def _definite(bands: np.ndarray, right: np.ndarray) -> np.ndarray:
@@ -116,8 +114,9 @@ def _definite(bands: np.ndarray, right: np.ndarray) -> np.ndarray:
     return solution
 
 
+@lru_cache(maxsize=16)
 def _second_difference_bands(count: int) -> np.ndarray:
-    """Upper bands (3, count) of D2ᵀD2 for free ends."""
+    """Upper bands (3, count) of D2ᵀD2 for free ends, not to be written to."""
     main, first = np.full(count, 6.0), np.full(count, -4.0)
     main[[0, -1]], main[[1, -2]] = 1, 5
     first[[1, -1]] = -2
@@ -128,9 +127,14 @@ def _second_difference_bands(count: int) -> np.ndarray:
     return np.stack([np.ones(count), first, main])
 
 
-def _folded(count: int) -> np.ndarray:
-    """The order 0, n−1, 1, n−2, … in which a ring has a narrow band."""
+@lru_cache(maxsize=16)
+def _periodic_second_difference_bands(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """The order 0, n−1, 1, n−2, … in which a ring has a narrow band, and the upper bands (5, count) of its D2ᵀD2."""
     order = np.empty(count, np.int64)
     order[::2] = np.arange((count + 1) // 2)
     order[1::2] = count - 1 - np.arange(count // 2)
-    return order
+    rank, here, bands = np.argsort(order), np.arange(count), np.zeros((5, count))
+    for shift, value in ((0, 6.0), (1, -4.0), (2, 1.0)):
+        one, other = rank[here], rank[(here + shift) % count]
+        np.add.at(bands, (4 - np.abs(one - other), np.maximum(one, other)), value)
+    return order, bands

@@ -1,5 +1,7 @@
 """Polylines: arc length, even sampling, closest points."""
 
+from collections.abc import Callable
+
 import numpy as np
 from scipy.interpolate import make_interp_spline
 from scipy.spatial import cKDTree
@@ -7,7 +9,7 @@ from scipy.spatial import cKDTree
 from plisse.geometry.vectors import dot, norm, unit
 
 __all__ = ["arc_length", "closest_on_polyline", "closest_on_polylines", "distance_to_polyline", "distance_to_polylines",
-           "interpolating_spline", "sample_evenly", "segments", "tangents"]
+           "even_sampler", "interpolating_spline", "sample_evenly", "segments", "tangents"]
 
 
 def arc_length(points: np.ndarray, closed: bool = False) -> np.ndarray:
@@ -50,10 +52,19 @@ def _curvature_variation(spline) -> float:
 
 def sample_evenly(points: np.ndarray, count: int, closed: bool = False) -> np.ndarray:
     """Points (count, 3) at equal arc lengths along the interpolating spline; closed ones leave out the last."""
+    return even_sampler(points, closed)(count)
+
+
+def even_sampler(points: np.ndarray, closed: bool = False) -> Callable[[int], np.ndarray]:
+    """`sample_evenly` of these points for any count, on one spline."""
     spline = interpolating_spline(points, closed)
-    fine = np.linspace(0, 1, max(4000, 10 * count))
-    length = arc_length(spline(fine))
-    return spline(np.interp(np.linspace(0, length[-1], count, endpoint=not closed), length, fine))
+
+    def sampled(count: int) -> np.ndarray:
+        fine = np.linspace(0, 1, max(4000, 10 * count))
+        length = arc_length(spline(fine))
+        return spline(np.interp(np.linspace(0, length[-1], count, endpoint=not closed), length, fine))
+
+    return sampled
 
 
 def closest_on_polylines(points: np.ndarray, lines: np.ndarray, closed: bool = False,

@@ -46,14 +46,18 @@ def located(samples: AreaSamples, quads: np.ndarray, reach: float) -> np.ndarray
     if len(quads) == 0:
         return found
     centres = quads.mean(axis=1)
+    radius = norm(quads - centres[:, None]).max(axis=1)
     candidates = cKDTree(centres).query(samples.points, k=_candidates(quads))[1].reshape(len(found), -1)
     x, y = _frames(samples.normals)
     for column in candidates.T:
         open_ = np.flatnonzero(found < 0)
+        away = centres[column[open_]] - samples.points[open_]
+        height = dot(away, samples.normals[open_])
+        near = (np.abs(height) < reach) & (dot(away, away) - height**2 <= radius[column[open_]] ** 2)
+        open_ = open_[near]
         offset = quads[column[open_]] - samples.points[open_, None]
         plane = np.stack([np.einsum("nki,ni->nk", offset, axis[open_]) for axis in (x, y)], axis=-1)
-        height = np.abs(dot(offset.mean(axis=1), samples.normals[open_]))
-        hit = (_contains(plane[:, [0, 1, 2]]) | _contains(plane[:, [0, 2, 3]])) & (height < reach)
+        hit = _contains(plane[:, [0, 1, 2]]) | _contains(plane[:, [0, 2, 3]])
         found[open_[hit]] = column[open_[hit]]
     return found
 

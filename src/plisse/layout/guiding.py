@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from plisse.errors import Infeasible
-from plisse.geometry.curves import seed_curve
+from plisse.geometry.curves import seed_sampler
 from plisse.layout.evolve import default_smoothing, evolution_nodes, evolve
 from plisse.layout.paper_evolution import evolve_literally
 from plisse.layout.widths import strip_widths
@@ -51,8 +51,9 @@ def guiding(curve: Curve, recipe: PatternRecipe, smoothing_factor: float = 1.0) 
 def _evolved(curve: Curve, recipe: PatternRecipe, scale: float, smoothing_factor: float) -> Pattern:
     closed = curve.closed
     theta = np.radians(np.broadcast_to(np.asarray(recipe.theta, float), recipe.creases))
-    nodes = evolution_nodes(seed_curve(curve, 200), closed)
-    seed = seed_curve(curve, nodes)
+    seed_of = seed_sampler(curve)
+    nodes = evolution_nodes(seed_of(200), closed)
+    seed = seed_of(nodes)
     parameters = np.linspace(0, 1, nodes, endpoint=not closed)
     widths = scale * strip_widths(recipe.width, theta, recipe.amplitude, parameters, closed=closed,
                                   spacing=recipe.spacing)

@@ -13,7 +13,7 @@ __all__ = ["EXACT", "FAR", "Verdict", "judge"]
 
 EXACT = 1e-9
 COMFORTABLE_SECTOR = np.radians(15.0)
-NEAR, FAR = 1.0, 2.5
+NEAR, FAR = 1.2, 2.5
 
 
 @dataclass(frozen=True)

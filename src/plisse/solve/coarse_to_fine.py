@@ -9,13 +9,14 @@ from plisse.geometry.vectors import norm
 from plisse.leastsquares import NotPositiveDefinite
 from plisse.solve.anneal import WEIGHTS, anneal
 from plisse.solve.attempt import Attempt, Start
-from plisse.solve.polish import polish
+from plisse.solve.polish import TOLERANCE, polish
 from plisse.structure.pattern import interpolate_along
 
 __all__ = ["CoarseToFine"]
 
 MIDDLE_COLUMNS = 160
 HOPELESS = 1e-2
+SUFFICIENT = 1e-6  # residual of a level that is only interpolated from
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,8 @@ class CoarseToFine:
                 last = samples == start.samples
                 conditions = start.workspace.constraints(level.topology, start.principal)
                 done = polish(conditions, vertices, chord=last and samples > 60,
-                              steps=12 if last else 8 if displacement is None else 2)
+                              steps=12 if last else 8 if displacement is None else 2,
+                              tolerance=TOLERANCE if last else SUFFICIENT)
                 iterations += len(done.history) - 2
                 history += done.history[:-1]
                 displacement = level.displacement(done.vertices)

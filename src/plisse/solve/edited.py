@@ -13,7 +13,7 @@ from plisse.leastsquares import NotPositiveDefinite
 from plisse.measure.folds import fold_angles
 from plisse.measure.intersection import intersecting_faces
 from plisse.measure.regularity import OPENING_RANGE, regularity
-from plisse.solve.anneal import WEIGHTS, anneal
+from plisse.solve.anneal import SLOWLY, anneal
 from plisse.solve.constraints import Constraints
 from plisse.solve.energies.mid_surface import mid_surface_closeness
 from plisse.solve.polish import polish
@@ -23,7 +23,7 @@ from plisse.structure.topology import Topology
 __all__ = ["Edited", "edited_structure"]
 
 EXACT = 1e-10
-GENTLE, FIRM = WEIGHTS[3:], WEIGHTS[1:]  # from small weights, and from larger ones where these do not do
+GENTLE, FIRM = SLOWLY[3:], SLOWLY[1:]  # from small weights, and from larger ones where these do not do
 FAIRNESS = {"closeness": 0.01, "across": 0.1}
 HOLD = 0.1
 SMALLEST_STEP = 1 / 32

@@ -12,14 +12,14 @@ from scipy.interpolate import make_interp_spline
 from plisse.geometry.vectors import unit
 from plisse.measure.intersection import intersecting_faces
 from plisse.measure.regularity import OPENING_RANGE
-from plisse.solve.anneal import WEIGHTS
+from plisse.solve.anneal import SLOWLY
 from plisse.solve.masked import CONVERGED, MaskedGrid, irregular, relaxed
 from plisse.structure.pattern import interpolate_along
 
 __all__ = ["Sampled", "finer"]
 
 HOLD = 0.1
-LAST = WEIGHTS[4:]
+LAST = SLOWLY[4:]
 
 
 @dataclass(frozen=True, eq=False)

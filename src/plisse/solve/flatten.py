@@ -14,6 +14,7 @@ from plisse.leastsquares.problem import Problem
 from plisse.measure.isometry import isometry_defect
 from plisse.measure.planarity import face_normals
 from plisse.solve.energies import given_length
+from plisse.solve.workspace import Workspace
 from plisse.structure.cut import Cut
 from plisse.structure.face_tree import face_tree
 from plisse.structure.parts import parts
@@ -25,28 +26,32 @@ __all__ = ["flatten", "laid_out", "refine_isometry", "unfold"]
 GOOD_ENOUGH = 3e-14
 
 
-def flatten(structure: PleatedStructure, cut: Cut | None = None) -> PleatedStructure:
+def flatten(structure: PleatedStructure, cut: Cut | None = None, workspace: Workspace | None = None) -> PleatedStructure:
     """The structure with its development, faces counterclockwise, lying in the first quadrant along the x axis.
 
     A closed structure must bring its cut; what a cut takes apart lies one piece above the other, a mean edge apart.
-    Where the structure is not exactly developable the development is the least-squares one.
+    Where the structure is not exactly developable the development is the least-squares one. Sheets that share a
+    `workspace` and a topology share their sparsity patterns.
     """
+    workspace = workspace or Workspace()
     cut = structure.cut if cut is None else cut
     development, above = np.zeros((len(cut.source), 2)), 0.0
     for part in parts(cut.topology):
         vertices = structure.vertices[cut.source[part.vertices]]
-        flat = refine_isometry(part.topology, vertices, unfold(part.topology, vertices))
+        flat = refine_isometry(part.topology, vertices, unfold(part.topology, vertices, workspace),
+                               workspace=workspace)
         development[part.vertices] = laid_out(part.topology, flat) + np.array([0.0, above])
         above = float(development[part.vertices, 1].max()) + structure.mean_edge
     return replace(structure, cut=cut, development=development)
 
 
-def unfold(topology: Topology, vertices: np.ndarray) -> np.ndarray:
+def unfold(topology: Topology, vertices: np.ndarray, workspace: Workspace | None = None) -> np.ndarray:
     """Development (V, 2) by turning face after face into the plane of the middle one."""
+    tree = (workspace or Workspace()).held(("face tree", topology), lambda: face_tree(topology))
     local, following = _local_coordinates(topology, vertices), _following(topology)
     direction = np.angle(local[following] - local)
     rotation, translation = np.zeros(topology.face_count), np.zeros(topology.face_count, complex)
-    for child, parent, at_child, at_parent in face_tree(topology).levels:
+    for child, parent, at_child, at_parent in tree.levels:
         # the two faces run through their common edge in opposite directions
         rotation[child] = rotation[parent] + direction[at_parent] - direction[at_child] + np.pi
         joint = local[at_parent], local[following[at_child]]
@@ -59,14 +64,16 @@ def unfold(topology: Topology, vertices: np.ndarray) -> np.ndarray:
                      for part in (placed.real, placed.imag)], axis=1)
 
 
-def refine_isometry(topology: Topology, vertices: np.ndarray, flat: np.ndarray, steps: int = 4) -> np.ndarray:
+def refine_isometry(topology: Topology, vertices: np.ndarray, flat: np.ndarray, steps: int = 4,
+                    workspace: Workspace | None = None) -> np.ndarray:
     """Development (V, 2) after Gauss–Newton steps on all edge and diagonal lengths."""
     i, j = topology.rods.T
     scale = norm(vertices[i] - vertices[j]).mean()
     square = dot(d := (vertices[i] - vertices[j]) / scale, d)
     key = np.arange(topology.vertex_count) if topology.ordering is None else topology.ordering
     term = Term("isometry", given_length, (Rows("flat", i), Rows("flat", j)), 1.0, {"square": square})
-    problem = Problem([term], {"flat": (2, key)})
+    problem = (workspace or Workspace()).held(
+        ("isometry", topology), lambda: Problem([term], {"flat": (2, key)}).prepare()).with_terms([term])
     blocks = {"flat": flat.T / scale}
     best, least = flat, isometry_defect(topology, vertices, flat)
     for _ in range(steps):

@@ -5,6 +5,7 @@ cot = (τ + u′) / (κ cos u). Where it vanishes the strip folds over: geometry
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -25,14 +26,27 @@ NARROW_STRIP = 0.05
 
 @dataclass(frozen=True, eq=False)
 class Forecast:
-    """Predicted ruling angles (m, n) and half opening angles (m−2, n) of inner creases, in radians."""
+    """What is predicted for zigzag `creases` (m, n, 3) with half opening angles (m−2, n) of the inner ones, in radians."""
 
-    ruling_angles: np.ndarray
+    creases: np.ndarray
     half_openings: np.ndarray
-    curvature: np.ndarray
     principal: bool
     closed: bool
     narrowest: float
+
+    @cached_property
+    def curvature(self) -> np.ndarray:
+        """Curvature (m, n) of the creases."""
+        return np.array([curvature(curve, self.closed) for curve in self.creases])
+
+    @cached_property
+    def ruling_angles(self) -> np.ndarray:
+        """Angles (m, n) between creases and rulings in radians."""
+        # outermost creases have no fold; their strips are those of their neighbours
+        inner = self.half_openings if len(self.half_openings) else np.full((1, self.creases.shape[1]), np.pi / 4)
+        everywhere = np.concatenate([inner[:1], inner, inner[-1:]])[: len(self.creases)]
+        return np.array([_ruling_angles(curve, bend, opening, self.closed)
+                         for curve, bend, opening in zip(self.creases, self.curvature, everywhere, strict=True)])
 
     @property
     def is_hopeful(self) -> bool:
@@ -91,14 +105,8 @@ def forecast(pattern: Pattern, amplitude: float, principal: bool = False) -> For
     half = _half_openings(creases, closed)
     if principal and len(half):
         half = np.broadcast_to(np.median(half, axis=1, keepdims=True), half.shape)
-    bend = np.array([curvature(curve, closed) for curve in creases])
-    # outermost creases have no fold; their strips are those of their neighbours
-    inner = half if len(half) else np.full((1, creases.shape[1]), np.pi / 4)
-    everywhere = np.concatenate([inner[:1], inner, inner[-1:]])[: len(creases)]
-    angles = [_ruling_angles(curve, kappa, opening, closed)
-              for curve, kappa, opening in zip(creases, bend, everywhere, strict=True)]
     gap, step = norm(np.diff(creases, axis=0)), norm(np.diff(creases[:-1], axis=1)).mean()
-    return Forecast(np.array(angles), half, bend, principal, closed, float(np.median(gap, axis=1).min() / step))
+    return Forecast(creases, half, principal, closed, float(np.median(gap, axis=1).min() / step))
 
 
 def _half_openings(creases: np.ndarray, closed: bool) -> np.ndarray:

@@ -15,7 +15,7 @@ from plisse.measure.intersection import intersecting_faces
 from plisse.measure.planarity import planarity_defect
 from plisse.measure.regularity import MIN_SECTOR, OPENING_RANGE, inverted_faces
 from plisse.measure.sectors import angle_defect, sector_angles
-from plisse.solve.anneal import WEIGHTS, anneal
+from plisse.solve.anneal import SLOWLY, anneal
 from plisse.solve.constraints import Constraints
 from plisse.solve.energies.mid_surface import mid_surface_closeness
 from plisse.solve.polish import Polished, polish
@@ -27,7 +27,7 @@ __all__ = ["Masked", "MaskedGrid", "Trim", "irregular", "relaxed", "solve_masked
 
 CONVERGED = 1e-10
 FEWEST_QUADS = 30
-AGAIN = WEIGHTS[3:]
+AGAIN = SLOWLY[3:]
 FAIRNESS = {"closeness": 0.01, "across": 0.1}
 RESISTING = 0.03  # an irregular face with a larger defect is a cause, with a smaller one a consequence
 GLIMPSE, POLISH_STEPS = 4, 6  # steps after which a polish must show promise, and steps after that
@@ -110,7 +110,7 @@ class Masked:
 
 
 def solve_masked(start: np.ndarray, normals: np.ndarray, mask: np.ndarray, closed: bool,
-                 trim: Trim = Trim(), weights: tuple[float, ...] = WEIGHTS, seams: tuple[int, ...] = (),
+                 trim: Trim = Trim(), weights: tuple[float, ...] = SLOWLY, seams: tuple[int, ...] = (),
                  is_ring: bool = False) -> Masked | None:
     """Exact structure near a zigzag `start` (n, m, 3) on the quads of a mask, or on most of them.
 

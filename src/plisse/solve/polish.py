@@ -7,7 +7,7 @@ import numpy as np
 from plisse.leastsquares import Factor, NotPositiveDefinite
 from plisse.solve.constraints import Constraints
 
-__all__ = ["Polished", "polish"]
+__all__ = ["TOLERANCE", "Polished", "polish"]
 
 TOLERANCE = 2e-13
 LONGEST_STEP = 0.5
@@ -28,10 +28,11 @@ class Polished:
         return self.history[-1]
 
 
-def polish(constraints: Constraints, vertices: np.ndarray, *, steps: int = 10, chord: bool = False) -> Polished:
+def polish(constraints: Constraints, vertices: np.ndarray, *, steps: int = 10, chord: bool = False,
+           tolerance: float = TOLERANCE) -> Polished:
     """The nearest solution of the constraints to vertices (3, V), in units of the mean edge length.
 
-    Steps are cut to half an edge. With `chord` one factorisation (and its Jacobian) serves as long as each step
+    Steps are cut to half an edge, and end where no residual exceeds `tolerance`. With `chord` one factorisation (and its Jacobian) serves as long as each step
     gains a factor of three. The best vertices seen are returned, so a diverging polish costs nothing.
     """
     best = current = vertices
@@ -52,7 +53,7 @@ def polish(constraints: Constraints, vertices: np.ndarray, *, steps: int = 10, c
         else:
             waited += 1
         floor = 6 * np.finfo(float).eps * np.abs(current).max()
-        if defect < max(TOLERANCE, floor) or (stale and defect < 50 * floor) or waited > PATIENCE \
+        if defect < max(tolerance, floor) or (stale and defect < 50 * floor) or waited > PATIENCE \
                 or len(history) > steps:
             break
         if factor is None or stale or not chord:

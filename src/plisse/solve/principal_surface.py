@@ -7,7 +7,7 @@ import numpy as np
 from plisse.leastsquares import NotPositiveDefinite
 from plisse.measure.intersection import intersecting_faces
 from plisse.measure.regularity import OPENING_RANGE, regularity
-from plisse.solve.anneal import WEIGHTS, anneal
+from plisse.solve.anneal import SLOWLY, anneal
 from plisse.solve.constraints import Constraints
 from plisse.solve.polish import polish
 from plisse.structure.pleated import PleatedStructure
@@ -28,7 +28,7 @@ def nearest_principal(structure: PleatedStructure, least_opening: float = OPENIN
     topology, unit = structure.topology, structure.mean_edge
     rest = np.ascontiguousarray(structure.vertices.T / unit)
     constraints = Constraints(topology, principal=True)
-    for weights, fairness in product((WEIGHTS, WEIGHTS[2:]), WAYS):
+    for weights, fairness in product((SLOWLY, SLOWLY[2:]), WAYS):
         try:
             at = anneal(topology, rest, principal=True, weights=weights, steps=STEPS, fairness=fairness)
             done = polish(constraints, at, steps=POLISH_STEPS)

@@ -6,7 +6,6 @@ from functools import cached_property
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from plisse.errors import Infeasible
 from plisse.layout.asymptotic.pattern import AsymptoticLayout
 from plisse.measure.intersection import intersecting_faces
 from plisse.measure.regularity import Regularity, regularity
@@ -126,24 +125,17 @@ def _by(way: Way, layout: AsymptoticLayout, amplitude: float, workspace: Workspa
     return last
 
 
-def finer(found: Raised, rounds: int, workspace: Workspace) -> tuple[Raised, int]:
-    """The same structure with twice as many columns, `rounds` times or as often as it stays sound, and how often it did.
+def finer(found: Raised, layout: AsymptoticLayout, workspace: Workspace) -> Raised | None:
+    """The same structure with the columns of a finer layout, or None where it does not stay sound.
 
-    Displacements are interpolated along the creases and only polished: relaxing again would destroy them.
+    Displacements are interpolated along the creases and only polished: relaxing again would destroy them. Raises
+    Infeasible where the finer layout has no labels.
     """
-    for done in range(rounds):
-        try:
-            layout = found.layout.refined()
-            zigzag = _relabelled(zigzag_over(layout, float(found.zigzag.amplitude.max()), found.way.taper), layout, found)
-        except Infeasible:
-            return found, done
-        moved = zigzag.vertices + _along_creases(found, layout)
-        solved = polished(zigzag, moved, workspace, found.solved.iterations)
-        after = Raised(layout, zigzag, solved, found.way, found.height)
-        if not after.is_sound:
-            return found, done
-        found = after
-    return found, rounds
+    zigzag = _relabelled(zigzag_over(layout, float(found.zigzag.amplitude.max()), found.way.taper), layout, found)
+    moved = zigzag.vertices + _along_creases(found, layout)
+    after = replace(found, layout=layout, zigzag=zigzag,
+                    solved=polished(zigzag, moved, workspace, found.solved.iterations, chord=True))
+    return after if after.is_sound else None
 
 
 def _relabelled(zigzag: Zigzag, layout: AsymptoticLayout, found: Raised) -> Zigzag:

@@ -99,10 +99,11 @@ def relaxed(zigzag: Zigzag, displacement: np.ndarray, hold: Hold, workspace: Wor
         return Solved(zigzag.vertices, np.inf, 0)
 
 
-def polished(zigzag: Zigzag, vertices: np.ndarray, workspace: Workspace, before: int = 0) -> Solved:
-    """The nearest exact structure to vertices (V, 3), as far as minimum-norm steps reach."""
+def polished(zigzag: Zigzag, vertices: np.ndarray, workspace: Workspace, before: int = 0, *,
+             chord: bool = False) -> Solved:
+    """The nearest exact structure to vertices (V, 3), as far as minimum-norm steps reach; `chord` as in `polish`."""
     done = polish(workspace.constraints(zigzag.topology, False), np.ascontiguousarray(vertices.T / zigzag.unit),
-                  steps=POLISH_STEPS)
+                  steps=POLISH_STEPS, chord=chord)
     return Solved(done.vertices.T * zigzag.unit, done.defect, before + done.factorisations)
 
 
