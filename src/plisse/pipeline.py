@@ -30,12 +30,14 @@ from plisse.solve.workspace import Workspace
 from plisse.solve.zigzag import zigzag
 from plisse.stopwatch import Stopwatch
 from plisse.structure.pleated import PleatedStructure
+from plisse.threads import bounded
 
 __all__ = ["design"]
 
 Progress = Callable[[str, float], None]
 
 
+@bounded()
 def design(recipe: Recipe | dict | str | Path, *, progress: Progress | None = None,
            workspace: Workspace | None = None) -> Result:
     """The structure that a recipe asks for, with the pattern it follows and the report that proves it.

@@ -4,7 +4,6 @@
 interrupted.
 """
 
-import os
 import sys
 from collections.abc import Sequence
 
@@ -27,6 +26,7 @@ from plisse.cli.studio import studio
 from plisse.cli.study import study
 from plisse.cli.table import table
 from plisse.errors import PlisseError
+from plisse.threads import bind_threads
 
 __all__ = ["EXACT", "INEXACT", "app", "main"]
 
@@ -63,8 +63,7 @@ app.command(studio)
 
 def main(tokens: Sequence[str] | None = None) -> int:
     """Exit code of one command; what a user can mend is said in one line on stderr."""
-    for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
-        os.environ.setdefault(name, "1")  # narrow bands: a second thread only waits (numpy is not imported yet)
+    bind_threads()
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")  # consoles that cannot show ° or θ

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from plisse.cli.limits import Memory, Threads, bound
+
 if TYPE_CHECKING:
     from plisse.result import Report, Result
 
@@ -25,6 +27,8 @@ def make(
     set_: Annotated[tuple[str, ...], Parameter(name="--set", negative=())] = (),
     json: Annotated[bool, Parameter(negative=())] = False,
     quiet: Annotated[bool, Parameter(negative=())] = False,
+    threads: Threads = None,
+    memory: Memory = None,
 ) -> int:
     """Make a structure: folded and flat, with a picture and the report that proves it.
 
@@ -41,6 +45,7 @@ def make(
     quiet
         Print nothing.
     """
+    bound(threads, memory)
     from plisse.cli.console import progress, summarise
     from plisse.io.atomic import require_writable
     from plisse.io.designs import read_design

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from plisse.cli.limits import Threads, bound
+
 __all__ = ["studio"]
 
 FIRST = "fig01d"
@@ -16,6 +18,7 @@ def studio(
     host: str = "127.0.0.1",
     port: int = 8080,
     browser: bool = True,
+    threads: Threads = None,
 ) -> int:
     """Design exact pleats in the browser: pull a curve, move a slider, see the folded sheet follow.
 
@@ -33,6 +36,7 @@ def studio(
     browser
         Open the browser.
     """
+    bound(threads)
     import secrets
     import webbrowser
 

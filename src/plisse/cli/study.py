@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
+from plisse.cli.limits import Threads, bound
+
 if TYPE_CHECKING:
     from plisse.study import Study
 
@@ -29,6 +31,7 @@ def study(
     by: Literal["regularity", "deviation", "opening", "sheet_area"] | None = None,
     json: Annotated[bool, Parameter(negative=())] = False,
     quiet: Annotated[bool, Parameter(negative=())] = False,
+    threads: Threads = None,
 ) -> int:
     """Make all designs of a study and map where they succeed; start it again to go on after an interruption.
 
@@ -53,6 +56,7 @@ def study(
     quiet
         Print nothing.
     """
+    bound(threads)
     from plisse.errors import PlisseError
     from plisse.study import run
 

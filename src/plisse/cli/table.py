@@ -4,12 +4,14 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from plisse.cli.limits import Threads, bound
+
 __all__ = ["table"]
 
 
 def table(*names: str, json: Annotated[bool, Parameter(negative=())] = False,
           markdown: Annotated[bool, Parameter(negative=())] = False,
-          quiet: Annotated[bool, Parameter(negative=())] = False) -> int:
+          quiet: Annotated[bool, Parameter(negative=())] = False, threads: Threads = None) -> int:
     """Solve the examples of the paper's Fig. 21 and print their numbers beside the paper's.
 
     Parameters
@@ -23,6 +25,7 @@ def table(*names: str, json: Annotated[bool, Parameter(negative=())] = False,
     quiet
         Show no progress.
     """
+    bound(threads)
     import msgspec
 
     from plisse.cli.console import progress, show_table

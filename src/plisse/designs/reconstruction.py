@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import msgspec
 import numpy as np
-import trimesh
 from scipy.spatial import cKDTree
 
 from plisse.errors import InvalidDesign
@@ -129,6 +128,8 @@ def edited_vertices(section: Surface, mesh: ReferenceMesh) -> np.ndarray | None:
                                      for pull in section.handles])
     if section.edited_file is None:
         return None
+    import trimesh
+
     _ = read_mesh(section.edited_file)  # a file that is no mesh is one sentence
     before, after = (trimesh.load_mesh(path, process=False) for path in (section.file, section.edited_file))
     if before.faces.shape != after.faces.shape or not np.array_equal(before.faces, after.faces):

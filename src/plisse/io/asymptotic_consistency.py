@@ -1,11 +1,13 @@
 """What the options of a pattern along asymptotic curves must be to each other: one sentence for every contradiction."""
 
 from plisse.errors import InvalidDesign
+from plisse.memory import peak_bytes, refuse_too_large
 from plisse.recipe import AsymptoticDesign
 
 __all__ = ["check_asymptotic_design"]
 
 MAX_FACES = 250_000
+WIDEST = 4  # creases side by side, for each crease of a sector
 KINDS = ("file", "formula", "weierstrass")
 
 
@@ -25,6 +27,9 @@ def check_asymptotic_design(design: AsymptoticDesign) -> AsymptoticDesign:
     if pattern.creases * pattern.columns * 6 > MAX_FACES:
         raise InvalidDesign(f"pattern.creases × pattern.columns = {pattern.creases * pattern.columns} per sector are more "
                             "than plisse solves; lower one of them")
+    refuse_too_large(peak_bytes(6 * pattern.creases * pattern.columns, WIDEST * pattern.creases),
+                     f"pattern.creases × pattern.columns = {pattern.creases * pattern.columns} per sector",
+                     "lower one of them")
     if pattern.amplitude is not None and pattern.width is not None and not 0.02 < pattern.amplitude / pattern.width < 10:
         raise InvalidDesign(f"pattern.amplitude is {pattern.amplitude:g} and pattern.width {pattern.width:g}; give an "
                             "amplitude of about half the width")

@@ -8,6 +8,7 @@ import numpy as np
 from plisse.errors import InvalidDesign
 from plisse.io.march_consistency import check_march
 from plisse.io.strips_consistency import check_strips
+from plisse.memory import peak_bytes, refuse_too_large
 from plisse.recipe import (
     Arc,
     ClosedForm,
@@ -46,7 +47,7 @@ def check_design(design: Design) -> Design:
     if design.curve is None or design.pattern is None:
         section = "curve" if design.curve is None else "pattern"
         raise InvalidDesign(f"{section} is missing; add a [{section}] section, as `plisse gallery fig01d` shows")
-    _check_size("pattern", design.pattern)
+    _check_size("pattern", design.pattern, principal=design.solve.principal, closed=design.curve.closed)
     _check_pattern(design.pattern)
     if design.curve.closed:
         _check_ring(design.pattern.width)
@@ -80,11 +81,14 @@ def _check_marched(design: Design, march: March) -> Design:
     return design
 
 
-def _check_size(section: str, grid: Pattern | March | ClosedForm) -> None:
+def _check_size(section: str, grid: Pattern | March | ClosedForm, *, principal: bool = False, closed: bool = False) -> None:
+    """Refuse sizes that take too long, or more memory than there is."""
     vertices = grid.creases * grid.samples
     if vertices > MAX_VERTICES:
         raise InvalidDesign(f"{section}.creases × {section}.samples = {vertices} vertices is more than plisse solves "
                             f"({MAX_VERTICES}, about a minute and 2 GB); lower {section}.samples")
+    peak = peak_bytes(vertices, min(grid.creases, grid.samples), principal=principal, closed=closed)
+    refuse_too_large(peak, f"{section}.creases × {section}.samples = {vertices} vertices", f"lower {section}.samples")
 
 
 def _check_pattern(pattern: Pattern) -> None:

@@ -4,6 +4,7 @@ import numpy as np
 
 from plisse.errors import Infeasible, InvalidDesign
 from plisse.layout.widths import mirrored_width
+from plisse.memory import peak_bytes, refuse_too_large
 
 __all__ = ["crease_positions", "fan_radius", "refuse_too_many", "upright_amplitude"]
 
@@ -11,10 +12,14 @@ MOST_VERTICES = 250_000
 
 
 def refuse_too_many(vertices: float, remedy: str) -> None:
-    """Raise InvalidDesign where a layout would have more vertices than are solved for; `remedy` says what to change."""
+    """Raise InvalidDesign where a layout would have more vertices than are solved for, or more than memory holds.
+
+    `remedy` says what to change.
+    """
     if vertices > MOST_VERTICES:
         raise InvalidDesign(f"pleats that narrow have about {vertices:.2g} vertices, more than the {MOST_VERTICES:,} that "
                             f"plisse solves for; {remedy}")
+    refuse_too_large(peak_bytes(vertices, vertices**0.5), f"a layout of about {vertices:.2g} vertices", remedy)
 
 
 def crease_positions(length: float, closed: bool, *, theta: float, width: float, amplitude: float,

@@ -1,6 +1,7 @@
 """Nonlinear least squares on fixed sparse patterns: terms, assembly without sorting, factorisations, damping."""
 
-from plisse.leastsquares.factor import Factor, NotPositiveDefinite, factoriser
+from plisse.leastsquares.choice import factoriser
+from plisse.leastsquares.factor import Factor, NotPositiveDefinite
 from plisse.leastsquares.gram import GramPattern
 from plisse.leastsquares.kernel import KERNELS, Kernel, Rows, Term, kernel
 from plisse.leastsquares.problem import Blocks, Linearisation, Problem

@@ -13,7 +13,7 @@ from plisse.structure.topology import Topology
 
 __all__ = ["SLOWLY", "WEIGHTS", "anneal"]
 
-WEIGHTS = (1e-1, 1e-2, 1e-4)  # lower or more of them solve no more of 120 random grids
+WEIGHTS = (1e-1, 1e-2, 1e-3)  # lower ones, or more of them, make no more of 120 random grids exact
 SLOWLY = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # for starts that are far from exact in places, as over whole surfaces
 LONGEST_STEP = 0.5
 

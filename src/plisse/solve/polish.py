@@ -32,8 +32,9 @@ def polish(constraints: Constraints, vertices: np.ndarray, *, steps: int = 10, c
            tolerance: float = TOLERANCE) -> Polished:
     """The nearest solution of the constraints to vertices (3, V), in units of the mean edge length.
 
-    Steps are cut to half an edge, and end where no residual exceeds `tolerance`. With `chord` one factorisation (and its Jacobian) serves as long as each step
-    gains a factor of three. The best vertices seen are returned, so a diverging polish costs nothing.
+    Steps are cut to half an edge, and end where no residual exceeds `tolerance`. With `chord` one factorisation (and its
+    Jacobian) serves as long as each step gains a factor of three. The best vertices seen are returned, so a diverging
+    polish costs nothing.
     """
     best = current = vertices
     history: list[float] = []

@@ -153,8 +153,8 @@ def _along_creases(found: Raised, layout: AsymptoticLayout) -> np.ndarray:
     displacement, out = found.solved.vertices - found.zigzag.vertices, np.zeros((len(after.places), 3))
     for crease in np.unique(before.crease):
         on = np.flatnonzero(before.crease == crease)
-        on = on[np.argsort(before.arc[on])]
+        on = on[np.argsort(before.along[on])]
         at = np.flatnonzero(after.crease == crease)
-        arc = np.clip(after.arc[at], before.arc[on[0]], before.arc[on[-1]])
-        out[at] = CubicSpline(before.arc[on], displacement[on])(arc) if len(on) >= BEFORE else displacement[on].mean(axis=0)
+        along = np.clip(after.along[at], before.along[on[0]], before.along[on[-1]])
+        out[at] = CubicSpline(before.along[on], displacement[on])(along) if len(on) >= BEFORE else displacement[on].mean(axis=0)
     return out

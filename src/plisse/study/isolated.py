@@ -16,6 +16,7 @@ from msgspec.structs import replace
 
 from plisse.study.outcome import DIED, Outcome
 from plisse.study.plan import Limits
+from plisse.threads import child_environment
 
 __all__ = ["Workshop", "made", "prepare", "process_options"]
 
@@ -23,7 +24,6 @@ LOOK_EVERY = 0.05  # seconds between looks at a process's memory
 START_SECONDS = 120.0
 SLACK = 1.05  # where the system bounds memory itself, that answers first
 SMALLER = "lower pattern.samples or pattern.creases"
-THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
 _idle: deque["Workshop"] = deque()
 
 
@@ -51,8 +51,8 @@ def _ready() -> "Workshop":
 
 
 def process_options() -> dict:
-    """How processes are started: one thread for linear algebra, out of reach of the terminal's Ctrl-C."""
-    options: dict = {"env": {**os.environ, **dict.fromkeys(THREADS, "1")}}
+    """How processes are started: few threads for linear algebra, out of reach of the terminal's Ctrl-C."""
+    options: dict = {"env": child_environment()}
     if sys.platform == "win32":
         return options | {"creationflags": subprocess.CREATE_NEW_PROCESS_GROUP}
     return options | {"start_new_session": True}
