@@ -142,6 +142,11 @@ class Result:
         """exact, approximate or infeasible."""
         return self.report.status
 
+    @property
+    def timings(self) -> dict[str, float]:
+        """Seconds of every stage, and in total."""
+        return self.report.seconds
+
     def report_page(self, *, title: str = "") -> str:
         """One self-contained HTML page: a turning view, the sheet, the numbers, the way there, the recipe.
 

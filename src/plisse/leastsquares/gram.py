@@ -14,17 +14,17 @@ class GramPattern:
     """
 
     def __init__(self, row: np.ndarray, column: np.ndarray, size: int):
+        row = row.astype(np.int32, copy=False)
         first, second = _pairs_within(column)
-        swap = row[first] < row[second]
-        first, second = np.where(swap, second, first), np.where(swap, first, second)
-        order = _counting_order(row[first], size)
-        order = order[_counting_order(row[second][order], size)]
-        self._first = first[order].astype(np.int32)
-        self._second = second[order].astype(np.int32)
-        key = row[second][order] * np.int64(size) + row[first][order]
-        self._starts = np.flatnonzero(np.r_[True, key[1:] != key[:-1]])
+        one, other = row[first], row[second]
+        low, high = np.minimum(one, other), np.maximum(one, other)
+        order = _counting_order(high, size)
+        order = order[_counting_order(low[order], size)]
+        self._first, self._second = first[order], second[order]
+        low, high = low[order], high[order]
+        self._starts = np.flatnonzero(np.r_[True, (high[1:] != high[:-1]) | (low[1:] != low[:-1])])
         self.size = size
-        self.columns, self.rows = np.divmod(key[self._starts], size)
+        self.columns, self.rows = low[self._starts].astype(np.int64), high[self._starts].astype(np.int64)
         self.diagonal = np.flatnonzero(self.rows == self.columns)
 
     @property
@@ -43,7 +43,7 @@ class GramPattern:
 
 def _pairs_within(group: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """All pairs of entries (each with itself too) that have the same group."""
-    order = np.argsort(group, kind="stable")
+    order = np.argsort(group, kind="stable").astype(np.int32)
     count = np.bincount(group)
     start = np.cumsum(count) - count
     first, second = [], []
@@ -58,6 +58,6 @@ def _pairs_within(group: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def _counting_order(key: np.ndarray, size: int) -> np.ndarray:
     """Stable order by key in linear time: the column → row conversion of a sparse matrix is a counting sort."""
     count = len(key)
-    incidence = csc_array((np.ones(count, np.int8), key.astype(np.int32), np.arange(count + 1, dtype=np.int32)),
+    incidence = csc_array((np.ones(count, np.int8), key.astype(np.int32, copy=False), np.arange(count + 1, dtype=np.int32)),
                           shape=(size, count))
     return incidence.tocsr().indices

@@ -43,9 +43,10 @@ def _is_tube(topology: Topology) -> bool:
 def _smallest(structure: PleatedStructure, lines: list[Polyline]) -> Cut:
     from plisse.measure.overlap import development_overlap
 
-    scored = []
+    sheets = []
     for line in lines:
         cut = cut_along(structure.topology, line)
         flat = laid_out(cut.topology, unfold(cut.topology, structure.vertices[cut.source]))
-        scored.append((development_overlap(cut.topology, flat).overlaps, float(np.prod(np.ptp(flat, axis=0))), cut))
-    return min(scored, key=lambda entry: entry[:2])[2]
+        sheets.append((float(np.prod(np.ptp(flat, axis=0))), cut, flat))
+    sheets.sort(key=lambda sheet: sheet[0])
+    return next((cut for _, cut, flat in sheets if not development_overlap(cut.topology, flat).overlaps), sheets[0][1])
