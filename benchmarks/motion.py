@@ -1,36 +1,40 @@
-"""Seconds for 100 states of a motion, and for its free range: `python benchmarks/motion.py`. One JSON row per design."""
-
-import json
-import time
-from importlib.resources import files
+"""Seconds for 100 states of a motion, and for its free range: `python benchmarks/motion.py`."""
 
 import numpy as np
 
 import plisse
+from cases import shipped
+from clocks import alone, spent
 from plisse.measure.isometry import isometry_defect
 
+TITLE = "Motion"
 STATES = 100
 
 
-def row(name: str) -> dict:
-    """Times, and the worst isometry of all states in mean edge lengths."""
-    structure = plisse.design(str(files("plisse") / "gallery" / f"{name}.toml")).structure
-    begin = time.perf_counter()
-    motion = structure.flex(np.linspace(0, 200, STATES))
-    states = time.perf_counter() - begin
-    begin = time.perf_counter()
-    free = motion.free_range
-    collisions = time.perf_counter() - begin
+def measured(quick: bool = False) -> dict:
+    """A row for each design: times, and the worst isometry of all states in mean edge lengths."""
+    return {"states": STATES, "rows": [_row(name) for name in ("fig10", "fig05", *(() if quick else ("fig01d", "fig26")))]}
+
+
+def _row(name: str) -> dict:
+    structure = plisse.design(shipped(name)).structure
+    motion, states = spent(lambda: structure.flex(np.linspace(0, 200, STATES)))
+    free, collisions = spent(lambda: motion.free_range)
     worst = max(isometry_defect(motion.topology, vertices, motion.development) for vertices in motion.vertices)
-    return {"name": name, "vertices": motion.topology.vertex_count, "states": STATES, "seconds": round(states, 3),
-            "isometry": float(f"{worst:.1e}"), "free": [free.low, free.high], "collisions_seconds": round(collisions, 3)}
+    return {"name": name, "vertices": motion.topology.vertex_count, **states, "isometry": worst,
+            "free": [free.low, free.high], "collisions": collisions}
 
 
-def main() -> None:
-    """Print a row for each design."""
-    for name in ("fig10", "fig05", "fig01d", "fig26"):
-        print(json.dumps(row(name)), flush=True)
+def lines(found: dict) -> list[str]:
+    """Markdown."""
+    out = [f"{found['states']} states from flat to flat-folded, and how far the structure moves before it meets itself; "
+           "processor seconds.", "",
+           f"| design | vertices | {found['states']} states s | isometry defect | free range | its search s |",
+           "|---|--:|--:|--:|--:|--:|"]
+    return out + [f"| {row['name']} | {row['vertices']:,} | {row['cpu']:.3f} | {row['isometry']:.0e} | "
+                  f"{row['free'][0]:.0f} to {row['free'][1]:.0f} % | {row['collisions']['cpu']:.2f} |"
+                  for row in found["rows"]]
 
 
 if __name__ == "__main__":
-    main()
+    alone(measured)

@@ -1,45 +1,49 @@
-"""What a study costs beyond its designs, and what a second worker gains: `python benchmarks/studies.py`.
+"""What a study costs beyond its designs, and what a second worker gains: `python benchmarks/studies.py`."""
 
-Prints one JSON object. `overhead_ms` is the time between two designs of one worker that is not spent on a design; `ratio`
-is designs per second of two workers over those of one, start-up not counted; `load` is the machine's load average before.
-"""
-
-import json
 import os
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
 
+from clocks import alone
 from plisse.study import run
 
-DESIGNS = 60
+TITLE = "Studies"
 PLAN = {"base": {"curve": {"kind": "arc", "radius": 100, "angle": 90},
-                 "pattern": {"theta": 20, "creases": 12, "width": 4, "amplitude": 2.5, "samples": 120}},
-        "vary": {"pattern.theta": {"start": 10, "stop": 20, "count": DESIGNS}}}
+                 "pattern": {"theta": 20, "creases": 12, "width": 4, "amplitude": 2.5, "samples": 120}}}
 
 
-def made(workers):
+def measured(quick: bool = False) -> dict:
+    """Overhead between two designs of one worker, and designs per second with one worker and with two."""
+    designs, load = 20 if quick else 60, os.getloadavg()[0]
+    one, two = _made(1, designs), _made(2, designs)
+    rates = [one[1] / one[0], two[1] / two[0]]
+    return {"designs": designs, "load": load, "seconds_per_design": one[2], "overhead": one[0] / one[1] - one[2],
+            "designs_per_second": rates, "ratio": rates[1] / rates[0]}
+
+
+def _made(workers: int, designs: int) -> tuple[float, int, float]:
     """Seconds between the first and the last fifth of the outcomes, how many lie between, and seconds per design."""
-    seen = {}
+    seen: dict[int, float] = {}
 
     def note(stage, fraction):
-        seen.setdefault(round(fraction * DESIGNS), perf_counter())
+        seen.setdefault(round(fraction * designs), perf_counter())
 
+    plan = {**PLAN, "vary": {"pattern.theta": {"start": 10, "stop": 20, "count": designs}}}
     with TemporaryDirectory() as directory:
-        study = run(PLAN, Path(directory), workers=workers, progress=note)
-    first, last = min(k for k in seen if k >= DESIGNS // 5), max(k for k in seen if k <= 4 * DESIGNS // 5)
-    seconds = sorted(row.seconds for row in study.rows)
+        study = run(plan, Path(directory), workers=workers, progress=note)
+    first, last = min(k for k in seen if k >= designs // 5), max(k for k in seen if k <= 4 * designs // 5)
+    seconds = [row.seconds for row in study.rows]
     return seen[last] - seen[first], last - first, sum(seconds) / len(seconds)
 
 
-def main():
-    load = os.getloadavg()[0]
-    one, two = made(1), made(2)
-    print(json.dumps({"load": round(load, 1), "seconds_per_design": round(one[2], 3),
-                      "overhead_ms": round(1000 * (one[0] / one[1] - one[2]), 1),
-                      "designs_per_second": [round(one[1] / one[0], 2), round(two[1] / two[0], 2)],
-                      "ratio": round(two[1] / two[0] / (one[1] / one[0]), 2)}))
+def lines(found: dict) -> list[str]:
+    """Markdown."""
+    one, two = found["designs_per_second"]
+    return [f"A study of {found['designs']} designs of 1,440 vertices: {1000 * found['seconds_per_design']:.0f} ms per "
+            f"design, {1000 * found['overhead']:.1f} ms between two designs of one worker; {one:.1f} designs per second "
+            f"with one worker, {two:.1f} with two, {found['ratio']:.2f} times as many, start-up not counted. Wall clock."]
 
 
 if __name__ == "__main__":
-    main()
+    alone(measured)

@@ -1,6 +1,6 @@
 """The studio in a real browser: from a step of a slider to the new picture, and memory over many edits.
 
-    python benchmarks/studio.py [DESIGN] [EDITS]
+    python benchmarks/studio.py [--quick]
 
 Needs playwright and a Chromium. The time is measured in the browser: from the key that moves the slider to the second frame
 after the status of the new design has arrived. Memory is that of the server with the tab's process, edits go to and fro.
@@ -8,17 +8,17 @@ after the status of the new design has arrived. Memory is that of the server wit
 
 import shutil
 import statistics
-import sys
 import time
 from pathlib import Path
 
-from playwright.sync_api import sync_playwright
-
+from clocks import alone
 from plisse.io.designs import read_design
 from plisse.shipped import shipped_design
 from plisse.studio.gate import Gate
 from plisse.studio.server import Studio
 
+TITLE = "The studio"
+DESIGN = "fig01d"
 SLIDER = "inclination θ (°)"
 WATCH = """() => {
   window.times = [];
@@ -39,9 +39,12 @@ def memory(*processes: int) -> float:
     return pages * 4096 / 1e6
 
 
-def main(name: str, edits: int) -> None:
-    """Print the median and largest time, and memory now and then."""
-    studio = Studio(read_design(shipped_design(name)), name, Gate("127.0.0.1"), port=0)
+def measured(quick: bool = False) -> dict:
+    """Milliseconds from a slider to the picture, and memory now and then."""
+    from playwright.sync_api import sync_playwright
+
+    edits = 20 if quick else 500
+    studio = Studio(read_design(shipped_design(DESIGN)), DESIGN, Gate("127.0.0.1"), port=0)
     with sync_playwright() as driver:
         browser = driver.chromium.launch(executable_path=shutil.which("chromium"), args=[
             "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"])
@@ -52,18 +55,27 @@ def main(name: str, edits: int) -> None:
         time.sleep(3)
         page.evaluate(WATCH)
         page.get_by_role("slider", name=SLIDER, exact=True).focus()
-        own = int(Path("/proc/self").resolve().name)
+        own, seen = int(Path("/proc/self").resolve().name), []
         for edit in range(edits):
             page.keyboard.press("ArrowRight" if edit // 5 % 2 == 0 else "ArrowLeft")
             page.wait_for_function(f"window.times.length > {edit}", timeout=60_000)
-            if edit % max(1, edits // 10) == 0:
-                print(f"after {edit:4d} edits: {memory(own, tab._hands.pid):.0f} MB", flush=True)
+            if edit % (edits // 10) == 0:
+                seen.append([edit, memory(own, tab._hands.pid)])
         times = page.evaluate("window.times")
-        median, largest = statistics.median(times), max(times)
-        print(f"{name}: from the slider to the picture, median {median:.0f} ms, largest {largest:.0f} ms")
         browser.close()
     studio.close()
+    return {"design": DESIGN, "edits": edits, "median_ms": statistics.median(times), "largest_ms": max(times),
+            "memory_mb": seen}
+
+
+def lines(found: dict) -> list[str]:
+    """Markdown."""
+    memory = [megabytes for _, megabytes in found["memory_mb"]]
+    return [f"{found['design']} in Chromium, which draws in software, {found['edits']} steps of a slider: from the key to "
+            f"the second frame after the new design has arrived, median {found['median_ms']:.0f} ms, largest "
+            f"{found['largest_ms']:.0f} ms. Memory of server and tab: {memory[0]:.0f} MB after the first edit, "
+            f"{memory[-1]:.0f} MB after edit {found['memory_mb'][-1][0]}."]
 
 
 if __name__ == "__main__":
-    main(sys.argv[1] if len(sys.argv) > 1 else "fig01d", int(sys.argv[2]) if len(sys.argv) > 2 else 200)
+    alone(measured)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import plisse
-from plisse.errors import InvalidStructure
+from plisse.errors import InvalidDesign, InvalidStructure
 from plisse.result import Report, Result
-from plisse.studio.downloads import KINDS, made
+from plisse.studio.downloads import KINDS, Order, made
 
 BEGINNINGS = {".3dm": b"3D Geometry File", ".glb": b"glTF", ".pdf": b"%PDF", ".png": b"\x89PNG", ".3mf": b"PK"}
 
@@ -19,26 +19,47 @@ def result():
                           "pattern": {"theta": 25, "creases": 4, "width": 5, "amplitude": 3, "samples": 15}})
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_every_kind_is_made(result, kind, monkeypatch):
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    """Small pictures without cast light."""
     monkeypatch.setattr("plisse.io.page.STILL", (150, 100))
+    monkeypatch.setattr("plisse.studio.downloads.PIXELS", (160, 120))
+    monkeypatch.setattr("plisse.studio.downloads.FRAMES", 3)
     monkeypatch.setattr("plisse.draw.light.can_cast", lambda: False)
-    content = made(result, "a small <arc>", kind)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_is_made(result, kind):
+    content = made(Order(result, "a small <arc>", length=0.2), kind)
     suffix = "." + KINDS[kind][0].rpartition(".")[2]
     assert content.startswith(BEGINNINGS.get(suffix, b""))
     assert len(content) > 400
 
 
 def test_the_fold_file_is_the_structure(result):
-    document = json.loads(made(result, "arc", "FOLD"))
+    document = json.loads(made(Order(result, "arc"), "FOLD"))
     found = np.array(document["file_frames"][0]["vertices_coords"])
     assert np.abs(found - result.structure.vertices).max() < 1e-9
 
 
+def test_offsets_and_plates_have_the_length_that_was_asked_for(result):
+    document = json.loads(made(Order(result, "arc", length=0.3), "offset, FOLD"))
+    found = np.array(document["file_frames"][0]["vertices_coords"])
+    assert np.abs(found - result.structure.offset(0.3).vertices).max() < 1e-9
+    with pytest.raises(InvalidDesign):
+        made(Order(result, "arc", length=1e3), "plates, STL")
+
+
+def test_pictures_are_taken_from_where_the_camera_stands_and_in_its_colours(result):
+    plain = made(Order(result, "arc"), "picture, PNG")
+    assert made(Order(result, "arc", axes=np.eye(3)), "picture, PNG") != plain
+    assert made(Order(result, "arc", colour="opening"), "picture, PNG") != plain
+
+
 def test_what_has_no_structure_has_a_report_and_says_so_for_the_rest(result):
     broken = Result(result.design, Report(status="infeasible", reasons=["the curve breaks down"]))
-    assert json.loads(made(broken, "x", "report, JSON"))["status"] == "infeasible"
+    assert json.loads(made(Order(broken, "x"), "report, JSON"))["status"] == "infeasible"
     for kind in KINDS:
         if kind != "report, JSON":
             with pytest.raises(InvalidStructure, match="broke down"):
-                made(broken, "x", kind)
+                made(Order(broken, "x"), kind)

@@ -18,7 +18,7 @@ from plisse.studio.gate import Gate  # noqa: E402
 from plisse.studio.page import with_additions  # noqa: E402
 from plisse.studio.server import Studio  # noqa: E402
 from plisse.studio.shelf import LARGEST_MESH  # noqa: E402
-from plisse.studio.uploads import AT_ONCE, limit_uploads  # noqa: E402
+from plisse.studio.uploads import AT_ONCE, Uploads  # noqa: E402
 
 RECIPE = design_from_dict({"closed_form": {"kind": "cones", "creases": 4, "samples": 11}})
 
@@ -113,7 +113,7 @@ class Transfers:
                                    _handle_file_transfer_part=self._take)
         self._websock_connection = SimpleNamespace(unregister_handler=lambda kind: None,
                                                    register_handler=self.handlers.__setitem__)
-        limit_uploads(self)
+        self.uploads = Uploads(self)
 
     def _begin(self, client, message):
         self.gui._current_file_upload_states[message.transfer_uuid] = message

@@ -103,7 +103,7 @@ def client():
 @pytest.fixture(autouse=True)
 def findable(monkeypatch):
     """The process behind a worker finds the requests of this file."""
-    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent))
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent), prepend=os.pathsep)
 
 
 def test_a_solve_gives_what_a_script_gets(client):
@@ -204,3 +204,15 @@ def test_closing_ends_process_and_thread():
         os.kill(process, 0)
     assert not client.worker._thread.is_alive()
     gc.collect()
+
+
+@pytest.mark.slow
+def test_memory_stays_the_same_over_many_edits(client):
+    def memory():
+        return int(Path(f"/proc/{client.worker.pid}/statm").read_text().split()[1])
+
+    for edit in range(300):
+        client.value(Solve(changed(RECIPE, {"theta": 20 + edit % 30, "creases": 5 + edit % 3}), colour="opening"))
+        if edit == 100:
+            before = memory()
+    assert memory() < 1.03 * before

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from plisse.studio.fields import Field, fields_of, value_of_text
+from plisse.studio.series import fitted
 
 if TYPE_CHECKING:
     from plisse.studio.tab import Tab
@@ -83,7 +84,7 @@ class DesignPanel:
             if event.client is None:
                 return
             value = event.target.value
-            self._tab.act(lambda: self._tab.desk.change(
-                {field.key: value_of_text(value) if field.kind == "list" else value}))
+            self._tab.act(lambda: self._tab.desk.change(fitted(
+                self._tab.desk.recipe, {field.key: value_of_text(value) if field.kind == "list" else value})))
 
         return changed

@@ -3,20 +3,48 @@
 import re
 import tempfile
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
-from plisse.draw.colour_maps import deviation_of
+import numpy as np
+
+from plisse.draw.camera import Camera
+from plisse.draw.colour_maps import colour_maps, deviation_of
 from plisse.draw.preview import write_preview
-from plisse.errors import PlisseError
 from plisse.io.exports import BOTH, FLAT, FOLDED, export
 from plisse.io.model import Model
+from plisse.io.plate_solids import write_plate_solids
+from plisse.io.plate_table import write_plates_csv
 from plisse.io.report import report_json
 from plisse.result import Result
 from plisse.studio.bench import required
+from plisse.transform.flex import Motion
 
-__all__ = ["KINDS", "file_name", "made"]
+__all__ = ["KINDS", "MATERIAL", "Order", "file_name", "made"]
 
-Write = Callable[[Result, str, Path], None]
+MATERIAL = (600.0, 300.0)
+STATES, FRAMES = 41, 21
+PIXELS = (1600, 1200)
+PLATES = (".obj", ".stl", ".3mf", ".glb")
+
+
+@dataclass(frozen=True, eq=False)
+class Order:
+    """A result with its title, and how files of it are to be made.
+
+    `length` is the thickness of plates or the distance of the offset in model units, `axes` (3, 3) are those of the camera,
+    `colour` names a colour map or none, `material` is the size of sheets in mm.
+    """
+
+    result: Result
+    title: str
+    length: float = 1.0
+    axes: np.ndarray | None = None
+    colour: str = ""
+    material: tuple[float, float] = MATERIAL
+
+
+Write = Callable[[Order, Path], None]
 
 
 def file_name(title: str, kind: str) -> str:
@@ -25,65 +53,109 @@ def file_name(title: str, kind: str) -> str:
     return f"{stem}{KINDS[kind][0]}"
 
 
-def made(result: Result, title: str, kind: str) -> bytes:
+def made(order: Order, kind: str) -> bytes:
     """The bytes of one kind of KINDS; errors are those of the writers, MissingExtra where one needs a library."""
+    required(order.result) if kind != REPORT else None
     with tempfile.TemporaryDirectory(prefix="plisse-studio-") as directory:
-        path = Path(directory) / file_name(title, kind)
-        KINDS[kind][1](result, title, path)
+        path = Path(directory) / file_name(order.title, kind)
+        KINDS[kind][1](order, path)
         return path.read_bytes()
 
 
-def _export(result: Result, title: str, path: Path) -> None:
-    export(Model(required(result), result.report.units, title), [path])
+def _model(order: Order) -> Model:
+    return Model(required(order.result), order.result.report.units, order.title)
 
 
-def _report(result: Result, title: str, path: Path) -> None:
-    path.write_text(report_json(result.report), encoding="utf-8")
+def _export(order: Order, path: Path) -> None:
+    export(_model(order), [path])
 
 
-def _page(result: Result, title: str, path: Path) -> None:
+def _offset(order: Order, path: Path) -> None:
+    model, title = _model(order), f"{order.title}, offset {order.length:g} {order.result.report.units}"
+    export(Model(model.structure.offset(order.length), model.units, title), [path])
+
+
+def _plates(order: Order, path: Path) -> None:
+    model = _model(order)
+    write_plate_solids(model.structure.plates(order.length), path, title=f"plates of {order.title}", units=model.units)
+
+
+def _plate_table(order: Order, path: Path) -> None:
+    write_plates_csv(required(order.result).plates(order.length), path)
+
+
+def _report(order: Order, path: Path) -> None:
+    path.write_text(report_json(order.result.report), encoding="utf-8")
+
+
+def _page(order: Order, path: Path) -> None:
     from plisse.io.page import report_page
 
-    page = report_page(required(result), result.report, title=title, deviation=deviation_of(result))
+    result = order.result
+    page = report_page(required(result), result.report, title=order.title, deviation=deviation_of(result))
     path.write_text(page, encoding="utf-8")
 
 
-def _picture(result: Result, title: str, path: Path) -> None:
-    from plisse.draw.picture import write_picture
+def _picture(order: Order, path: Path) -> None:
+    from plisse.draw.picture import Style, write_picture
 
-    write_picture(required(result), path)
-
-
-def _preview(result: Result, title: str, path: Path) -> None:
-    required(result)
-    write_preview(result, path, title=title)
+    structure = required(order.result)
+    colour = colour_maps(structure, deviation_of(order.result)).get(order.colour)
+    camera = None if order.axes is None else Camera(order.axes)
+    write_picture(structure, path, camera=camera, style=Style(PIXELS, colour=colour))
 
 
-def _sheets(result: Result, title: str, path: Path) -> None:
+def _preview(order: Order, path: Path) -> None:
+    write_preview(order.result, path, title=order.title)
+
+
+def _sheets(order: Order, path: Path) -> None:
     from plisse.draw.sheets import sheet_drawings
+    from plisse.io.exports import developed
     from plisse.io.sheets import write_sheets
 
-    structure = required(result)
-    if structure.development is None:
-        raise PlisseError("the structure has no development, so there are no sheets to cut")
-    write_sheets(sheet_drawings(structure.sheets(units=result.report.units), title=title), path)
+    model = developed(_model(order))
+    plan = model.structure.sheets(material=order.material, units=model.units)
+    write_sheets(sheet_drawings(plan, title=order.title), path)
 
 
-def _motion(result: Result, title: str, path: Path) -> None:
+def _motion_fold(order: Order, path: Path) -> None:
+    from plisse.io.motion import write_motion_fold
+
+    write_motion_fold(_motion(order, STATES), path, title=order.title, units=order.result.report.units)
+
+
+def _motion_glb(order: Order, path: Path) -> None:
     from plisse.io.glb import write_motion_glb
 
-    percent = [200 * k / 40 for k in range(41)]
-    write_motion_glb(required(result).flex(percent), path, title=title, units=result.report.units)
+    write_motion_glb(_motion(order, STATES), path, title=order.title, units=order.result.report.units)
 
 
+def _motion_gif(order: Order, path: Path) -> None:
+    from plisse.draw.animation import write_gif
+
+    write_gif(_motion(order, FRAMES), path)
+
+
+def _motion(order: Order, states: int) -> Motion:
+    """The whole motion, from flat to folded flat."""
+    return required(order.result).flex(np.linspace(0, 200, states).tolist())
+
+
+REPORT = "report, JSON"
 KINDS: dict[str, tuple[str, Write]] = {
     **{suffix[1:].upper(): (suffix, _export) for suffix in (*BOTH, *FOLDED)},
     **{f"flat sheet, {suffix[1:].upper()}": (f"-sheet{suffix}", _export) for suffix in FLAT},
     "pieces nested on sheets, PDF": ("-pieces.pdf", _sheets),
     "pieces nested on sheets, DXF": ("-pieces.dxf", _sheets),
-    "motion, GLB": ("-motion.glb", _motion),
+    "motion, FOLD": ("-motion.fold", _motion_fold),
+    "motion, GLB": ("-motion.glb", _motion_glb),
+    "motion, GIF": ("-motion.gif", _motion_gif),
+    "offset, FOLD": ("-offset.fold", _offset),
+    **{f"plates, {suffix[1:].upper()}": (f"-plates{suffix}", _plates) for suffix in PLATES},
+    "plates, table (CSV)": ("-plates.csv", _plate_table),
     "picture, PNG": (".png", _picture),
     "picture with the sheet, PNG": ("-preview.png", _preview),
-    "report, JSON": ("-report.json", _report),
+    REPORT: ("-report.json", _report),
     "report page, HTML": ("-report.html", _page),
 }

@@ -12,12 +12,14 @@ from msgspec import inspect
 from plisse.errors import InvalidDesign
 from plisse.io.toml import toml_text
 from plisse.recipe import Recipe
+from plisse.studio.series import SERIES, series_of
 
-__all__ = ["Field", "fields_of", "value_of_text"]
+__all__ = ["Field", "fields_of", "list_text", "value_of_text"]
 
 WORDS = {
     "pattern.theta": ("inclination θ", "°"), "pattern.creases": ("creases", ""), "pattern.width": ("width", "unit"),
     "pattern.amplitude": ("amplitude", "unit"), "pattern.samples": ("samples per crease", ""),
+    "march.samples": ("samples per crease", ""), "closed_form.samples": ("samples per crease", ""),
     "pattern.smoothing": ("smoothing of binormals", ""), "solve.principal": ("principal (folds flat)", ""),
     "solve.cut": ("cut of the sheet", "%"), "curve.radius": ("radius", "unit"), "curve.pitch": ("pitch", "unit"),
     "curve.turns": ("turns", ""), "curve.angle": ("angle", "°"), "curve.a": ("half axis a", "unit"),
@@ -32,7 +34,6 @@ SECTIONS = ("pattern", "march", "closed_form", "curve", "surface", "strips", "pa
 LEFT_OUT = {"curve.points", "curve.file", "surface.file", "surface.height", "surface.radius", "surface.torus", "surface.x",
             "surface.y", "surface.guide", "surface.guide_file", "surface.handles", "surface.edited_file", "solve.weights",
             "solve.iterations", "surface.guide_section", "parallel.moves"}
-LISTED = ("pattern.theta", "pattern.width")
 NARROW, MOST_CREASES, FARTHEST = 10.0, 40, 1e9
 
 
@@ -66,11 +67,9 @@ def fields_of(recipe: Recipe) -> list[Field]:
         assert isinstance(info, inspect.StructType)
         for entry in info.fields:
             key, value = f"{section}.{entry.name}", getattr(struct, entry.name)
-            if key not in LEFT_OUT and value is not None and not isinstance(value, msgspec.Struct):
-                field = _field(key, value, entry.type, recipe.units)
-                found.append(field)
-                if field is not None and field.kind == "slider" and key in LISTED:
-                    found.append(_field(key, [value], entry.type, recipe.units))
+            has_rows = key in SERIES and isinstance(value, list) and series_of(recipe, key) is not None
+            if key not in LEFT_OUT and not has_rows and value is not None and not isinstance(value, msgspec.Struct):
+                found.append(_field(key, value, entry.type, recipe.units))
     return [field for field in found if field is not None]
 
 
@@ -85,9 +84,13 @@ def value_of_text(text: str) -> object:
     return value
 
 
+def list_text(values) -> str:
+    """A list as TOML, in one line."""
+    return re.sub(r"\.0\b", "", toml_text({"v": values}).partition(" = ")[2].strip())
+
+
 def _field(key: str, value, kind: inspect.Type, units: str) -> Field | None:
-    name = key.partition(".")[2].replace("_", " ")
-    words, unit = WORDS.get(key, (name, ""))
+    words, unit = WORDS.get(key, (key.partition(".")[2].replace("_", " "), ""))
     unit = units if unit == "unit" else unit
     label = f"{words} ({unit})" if unit else words
     if isinstance(value, bool):
@@ -96,9 +99,7 @@ def _field(key: str, value, kind: inspect.Type, units: str) -> Field | None:
         choices = _choices(kind)
         return Field(key, label, "choice", value, choices=choices) if choices else None
     if isinstance(value, list | tuple):
-        shown = value[0] if len(value) == 1 else list(value)
-        text = toml_text({"v": shown}).partition(" = ")[2].strip()
-        return Field(key, f"{label}, one by one", "list", re.sub(r"\.0\b", "", text))
+        return Field(key, f"{label}, one by one", "list", list_text(value[0] if len(value) == 1 else list(value)))
     return _number(key, label, value, kind)
 
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import asyncio
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from plisse.draw.camera import Camera
 from plisse.draw.colour_maps import NAMES
 from plisse.studio.view import Tint
 
@@ -19,6 +20,7 @@ __all__ = ["LookPanel", "scale_html"]
 PAPER = "paper"
 SWITCHES = (("rulings", "rulings"), ("creases", "creases"), ("sheet", "flat sheet beside"), ("seed", "seed curve"),
             ("reference", "reference surface"))
+THIN = 0.006  # plates, in radii of the structure
 TURN, FRAMES = 2 * np.pi / 12, 25  # radians and pictures per second
 
 
@@ -58,11 +60,32 @@ class LookPanel:
         self._views.on_click(self._viewed)
         self._turntable.on_update(self._turned)
 
+    def show_paper(self) -> None:
+        """Set the choice of colours to none."""
+        self._colours.value = PAPER
+
     def show_scale(self, tint: Tint | None) -> None:
         """Show what colours mean, or nothing."""
         self._scale.visible = tint is not None
         if tint is not None:
             self._scale.content = scale_html(tint)
+
+    @property
+    def manner(self) -> dict[str, Any]:
+        """How what is taken away is made, as `downloads.Order` has it: as it is seen."""
+        camera = self._tab.client.camera
+        axes = Camera.looking_from(camera.position - camera.look_at, camera.up_direction).axes
+        return {"length": float(self._length.value), "axes": axes, "colour": self._tab.colour}
+
+    def fit(self, size: float) -> None:
+        """Suggest a thickness for structures of a size (radius), where none was chosen."""
+        if self._tab.solid[0] == "":
+            self._length.value = float(f"{size * THIN:.0e}")
+            self._length.step = self._length.value / 10
+
+    def forget_offsets(self) -> None:
+        """Say nothing about offsets, for the structure is another one."""
+        self._words.visible = False
 
     def show_offsets(self, offsets: tuple[float, float]) -> None:
         """Say how far offsets reach."""
@@ -108,5 +131,8 @@ class LookPanel:
         camera = self._tab.client.camera
         while self._tab.is_open:
             turn = Rotation.from_rotvec(camera.up_direction * TURN / FRAMES)
-            camera.position = camera.look_at + turn.apply(camera.position - camera.look_at)
+            middle = camera.look_at.copy()
+            with self._tab.client.atomic():
+                camera.position = middle + turn.apply(camera.position - middle)
+                camera.look_at = middle  # which goes along with the position
             await asyncio.sleep(1 / FRAMES)

@@ -4,14 +4,26 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from plisse.studio.inside import set_marks
 from plisse.transform.collisions import FreeRange
 
 if TYPE_CHECKING:
     from plisse.studio.tab import Tab
 
-__all__ = ["MotionPanel"]
+__all__ = ["MotionPanel", "marks_of"]
 
 FIXED = "This structure is not principal, so it has no motion that keeps its rulings; switch principal on under Exactness."
+MEASURING = "The range that is free of collisions is being measured …"
+STATES = {0.0: "flat", 100.0: "as designed", 200.0: "folded"}
+APART = 40.0  # percent between marks whose words do not touch
+
+
+def marks_of(free: FreeRange) -> list[tuple[float, str]]:
+    """Marks with their words: the ends of the free range, and the named states that are not too near to them."""
+    ends = [(end, f"{words} {end:.0f}") for end, words in ((free.low, "free from"), (free.high, "free to"))
+            if end not in STATES]
+    named = [(state, words) for state, words in STATES.items() if all(abs(state - end) >= APART for end, _ in ends)]
+    return sorted([*ends, *named])
 
 
 class MotionPanel:
@@ -20,8 +32,7 @@ class MotionPanel:
     def __init__(self, tab: Tab):
         self._tab, gui = tab, tab.client.gui
         with gui.add_folder("Motion"):
-            self._percent = gui.add_slider("folded (%)", 0.0, 200.0, 0.5, 100.0,
-                                           marks=((0.0, "flat"), (100.0, "as designed"), (200.0, "folded")))
+            self._percent = gui.add_slider("folded (%)", 0.0, 200.0, 0.5, 100.0, marks=tuple(STATES.items()))
             self._words = gui.add_markdown("")
         self._percent.on_update(self._moved)
 
@@ -33,17 +44,18 @@ class MotionPanel:
         self._percent.value = self._tab.percent
         if not moves:
             self._words.content = FIXED
-        elif self._words.content == FIXED:
-            self._words.content = ""
+
+    def forget_reach(self) -> None:
+        """Take the marks of a free range away, which belong to another structure."""
+        if self._words.content != MEASURING:
+            self._words.content = MEASURING
+            set_marks(self._percent, list(STATES.items()))
 
     def show_reach(self, free: FreeRange) -> None:
         """Mark the free range."""
         collisions = "".join(f"\n\n{sentence}" for sentence in free.collisions)
         self._words.content = f"Free of collisions from {free.low:.4g} to {free.high:.4g} %.{collisions}"
-        ends = {0.0: "flat", 100.0: "as designed", 200.0: "folded", free.low: "free from", free.high: "free to"}
-        from viser._messages import GuiSliderMark
-
-        self._percent._marks = tuple(GuiSliderMark(value, label) for value, label in sorted(ends.items()))
+        set_marks(self._percent, marks_of(free))
 
     async def _moved(self, event) -> None:
         if event.client is not None:

@@ -6,7 +6,12 @@ from plisse.draw.colours import BACKGROUND
 
 __all__ = ["with_additions"]
 
-STYLE = f"<style>div:has(> div > [data-dock-root]) {{ background-color: {BACKGROUND} !important; }}</style>"
+# the ground is that of our pictures, and the status takes the room that it needs until one pulls at its edge
+STYLE = f"""<style>
+div:has(> div > [data-dock-root]) {{ background-color: {BACKGROUND} !important; }}
+div[style^="flex: 0.5 1 0px"]:has(> [data-dock-leaf] #plisse-status) {{ flex: 0 1 40% !important; }}
+div:has(> [data-dock-leaf] #plisse-status) ~ div[style^="flex: 0.5 1 0px"] {{ flex: 1 1 0px !important; }}
+</style>"""
 
 # viser puts words beside its controls without saying so to the browser: sliders and their numbers have no name
 SCRIPT = """<script>
@@ -22,6 +27,18 @@ SCRIPT = """<script>
       row.querySelectorAll("input:not([type=hidden]), textarea, [role=slider]").forEach((control, k) => {
         if (control.id !== label.htmlFor) control.setAttribute("aria-label", k ? `${words}, ${k + 1}` : words);
       });
+    });
+    document.querySelectorAll("button:not([aria-label]) svg[class*='tabler-icon-']").forEach((icon) => {
+      const button = icon.closest("button"), [, name] = /tabler-icon-([\\w-]+)/.exec(icon.getAttribute("class"));
+      if (!button.innerText) button.setAttribute("aria-label", name.replaceAll("-", " "));
+    });
+    document.querySelectorAll("img[src^='blob:']:not([alt])").forEach((picture) => {
+      let around = picture.parentElement;
+      while (around && !around.innerText) around = around.parentElement;
+      if (around) picture.alt = around.innerText;
+    });
+    document.querySelectorAll(".mantine-Notification-closeButton").forEach((button) => {
+      button.setAttribute("aria-label", "close the note");
     });
     const sheet = document.querySelector('[style*="max-height: 60%"]');
     if (sheet && !closed) {

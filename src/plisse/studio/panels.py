@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from plisse.studio.gallery_panel import GalleryPanel
 from plisse.studio.look_panel import LookPanel
 from plisse.studio.motion_panel import MotionPanel
 from plisse.studio.points_panel import PointsPanel
+from plisse.studio.series_panel import SeriesPanel
 from plisse.studio.status import Status
 from plisse.studio.surface_panel import SurfacePanel
 from plisse.studio.take_panel import TakePanel
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Panels"]
 
-STATUS_HEIGHT, NARROW, LONGEST_LABEL = 270, 640, 60
+NARROW, LONGEST_LABEL = 640, 60
 
 
 class Panels:
@@ -40,6 +41,7 @@ class Panels:
         with tabs.add_tab("Design"):
             self._gallery = GalleryPanel(tab)
             self._design = DesignPanel(tab)
+            self._series = (SeriesPanel(tab, "pattern.theta", "inclination θ"), SeriesPanel(tab, "pattern.width", "width"))
             self._points = PointsPanel(tab)
         with tabs.add_tab("Look"):
             self._motion = MotionPanel(tab)
@@ -58,8 +60,12 @@ class Panels:
         with panel.add_tab("Status"):
             status = gui.add_html("")
         panel.dock_above(gui.main_panel)
-        panel.set_height(STATUS_HEIGHT)
         return status
+
+    @property
+    def manner(self) -> dict[str, Any]:
+        """How files are made, as `downloads.Order` has it."""
+        return self._look.manner
 
     @property
     def handles_wanted(self) -> bool:
@@ -86,12 +92,25 @@ class Panels:
 
     def refresh(self) -> None:
         """Bring all controls to what is on the desk."""
-        for panel in (self._design, self._points, self._motion, self._surface, self._take):
+        for panel in (self._design, *self._series, self._points, self._motion, self._surface, self._take):
             panel.refresh()
+
+    def fit(self, size: float) -> None:
+        """Suggest lengths for structures of a size (radius)."""
+        self._look.fit(size)
+
+    def show_paper(self) -> None:
+        """Show that there are no colours, in the controls too."""
+        self._look.show_paper()
 
     def show_scale(self, tint: Tint | None) -> None:
         """Show what colours mean."""
         self._look.show_scale(tint)
+
+    def forget_reach(self) -> None:
+        """Say nothing about motion and offsets, for the structure is another one."""
+        self._motion.forget_reach()
+        self._look.forget_offsets()
 
     def show_reach(self, free: FreeRange, offsets: tuple[float, float]) -> None:
         """Show how far the structure moves and can be offset."""

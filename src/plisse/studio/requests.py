@@ -9,17 +9,15 @@ from plisse.draw.camera import best_view
 from plisse.draw.colour_maps import colour_maps, deviation_of
 from plisse.draw.plates import plates_mesh
 from plisse.errors import InvalidStructure
-from plisse.geometry.curves import seed_curve
 from plisse.io.meshes import read_mesh
-from plisse.recipe import MILLIMETRES, Recipe, SurfaceDesign
+from plisse.recipe import Recipe, SurfaceDesign
 from plisse.result import Report, Result
-from plisse.structure.front import front_up
-from plisse.structure.place import vertex_named
 from plisse.structure.pleated import PleatedStructure
 from plisse.studio.bench import Bench, Progress, required
 from plisse.studio.candidates import candidates_of
-from plisse.studio.downloads import made
-from plisse.studio.view import Tint, View, flat_view, folded_view, tinted
+from plisse.studio.downloads import Order, made
+from plisse.studio.marks import Reference, overlap_of, reference_of, seed_line, trouble_of
+from plisse.studio.view import Tint, View, flat_view, folded_view, posed_view, tinted
 from plisse.transform.collisions import FreeRange
 from plisse.transform.offset import offset_range
 
@@ -36,8 +34,6 @@ __all__ = [
     "Solve",
     "Take",
 ]
-
-CURVE_POINTS = 400
 
 
 class Request:
@@ -72,28 +68,35 @@ class Found:
     trouble: np.ndarray | None = None
     overlap: np.ndarray | None = None
     axes: np.ndarray | None = None
-    reference: tuple[np.ndarray, np.ndarray] | None = None
+    reference: Reference | None = None
+    tint: Tint | None = None
 
 
 @dataclass(frozen=True)
 class Solve(Request):
-    """The structure of a recipe; `framed` asks for a camera as well."""
+    """The structure of a recipe; `framed` asks for a camera as well, `colour` for a map if the structure has it."""
 
     limit: ClassVar[float] = 300.0
     recipe: Recipe
     framed: bool = False
     drafted: bool = False
+    colour: str = ""
 
     def run(self, bench: Bench, progress: Progress) -> Found:
         """Everything the scene needs."""
         result = bench.result(self.recipe, progress)
         structure, report = result.structure, result.report
-        found = Found(report, self.drafted, seed=_seed(self.recipe), reference=_reference(result))
+        found = Found(report, self.drafted, seed=seed_line(self.recipe), reference=reference_of(result))
         if structure is None:
             return found
-        return replace(found, folded=folded_view(structure), trouble=_trouble(structure, report),
+        return replace(found, folded=folded_view(structure), trouble=trouble_of(structure, report),
                        sheet=None if structure.development is None else flat_view(structure),
-                       overlap=_overlap(structure, report), axes=best_view(structure).axes if self.framed else None)
+                       overlap=overlap_of(structure, report), axes=best_view(structure).axes if self.framed else None,
+                       tint=self._tint(result) if self.colour else None)
+
+    def _tint(self, result: Result) -> Tint | None:
+        colour = colour_maps(required(result), deviation_of(result)).get(self.colour)
+        return None if colour is None else tinted(required(result), colour)
 
 
 @dataclass(frozen=True)
@@ -105,8 +108,7 @@ class Pose(Request):
 
     def run(self, bench: Bench, progress: Progress) -> View:
         """The state as a view; raises InvalidStructure for structures that are not principal."""
-        motion = bench.motion(self.recipe).at(self.percent)
-        return folded_view(motion.structures[0])
+        return posed_view(bench.motion(self.recipe), self.percent)
 
 
 @dataclass(frozen=True)
@@ -138,7 +140,8 @@ class Solid(Request):
         structure = required(bench.result(self.recipe))
         if self.kind == "offset":
             return folded_view(structure.offset(self.length))
-        return folded_view(plates_mesh(structure.plates(self.length)))
+        view = folded_view(plates_mesh(structure.plates(self.length)))
+        return replace(view, lines={"plate": view.lines["boundary"]})
 
 
 @dataclass(frozen=True)
@@ -193,11 +196,10 @@ class Mesh(Request):
 
 @dataclass(frozen=True, eq=False)
 class Take(Request):
-    """A file made of a result, of one of the kinds of `plisse.studio.downloads`."""
+    """A file made to an order, of one of the kinds of `plisse.studio.downloads`."""
 
     limit: ClassVar[float] = 300.0
-    result: Result
-    title: str
+    order: Order
     kind: str
 
     @property
@@ -207,35 +209,4 @@ class Take(Request):
 
     def run(self, bench: Bench, progress: Progress) -> bytes:
         """The content of the file."""
-        return made(self.result, self.title, self.kind)
-
-
-def _seed(recipe: Recipe) -> np.ndarray | None:
-    curve = getattr(recipe, "curve", None)
-    if curve is None:
-        return None
-    points = seed_curve(curve, CURVE_POINTS)
-    return np.concatenate([points, points[:1]]) if curve.closed else points
-
-
-def _reference(result: Result) -> tuple[np.ndarray, np.ndarray] | None:
-    mesh = result.overlay.mesh if result.overlay is not None else result.surface
-    return None if mesh is None else (mesh.vertices.astype(np.float32), mesh.triangles.astype(np.uint32))
-
-
-def _trouble(structure: PleatedStructure, report: Report) -> np.ndarray | None:
-    """Where the first sentence that names a place points to."""
-    for sentence in [*report.reasons, *report.warnings]:
-        vertex = vertex_named(structure.topology, sentence)
-        if vertex is not None:
-            return structure.vertices[vertex]
-    return None
-
-
-def _overlap(structure: PleatedStructure, report: Report) -> np.ndarray | None:
-    """The place where the sheet overlaps, in the frame of its view."""
-    if structure.development is None or report.development is None or report.development.overlap_at_mm is None:
-        return None
-    place = np.array(report.development.overlap_at_mm) / MILLIMETRES[report.units]
-    mirrored = not np.shares_memory(front_up(structure), structure.development)
-    return place * [-1.0, 1.0] if mirrored else place
+        return made(self.order, self.kind)

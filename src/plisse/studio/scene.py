@@ -2,41 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from plisse.draw import colours
+from plisse.studio.paper import Paper, Shown, ink_bytes
 from plisse.studio.requests import Found
 from plisse.studio.view import Tint, View
 
 if TYPE_CHECKING:
     from viser import ClientHandle
 
-__all__ = ["Scene", "Shown"]
+__all__ = ["Scene"]
 
-INKS = {"mountain": (colours.MOUNTAIN, 1.6), "valley": (colours.VALLEY, 1.6), "flat": (colours.RULING, 1.2),
-        "boundary": (colours.EDGE, 1.4), "ruling": (colours.RULING, 0.7)}
-GLASS = "#7f9bb0"
+GLASS, OPEN = "#7f9bb0", "#d99a2b"
 SEED, MARK = colours.INK, colours.MOUNTAIN
-MARKS = ("/trouble", "/trouble/words", "/seed")
+MARKS, OVERLAP = ("/trouble", "/trouble/words", "/seed"), ("/overlap", "/overlap/words")
+SURFACES = {True: ("/reference/covered", GLASS, 0.25), False: ("/reference/open", OPEN, 0.55)}
 APART, SMALLEST = 0.12, 0.72
 FIELD_OF_VIEW = np.radians(30)
 DIRECTION = np.array([-0.5, 0.6, 0.62])  # right, up, towards the viewer
 SUNLIGHT, SKYLIGHT, GROUND = (255, 246, 232), (255, 255, 255), (196, 178, 160)
 SUN, SKY = 6.5, 2.6
-
-
-@dataclass
-class Shown:
-    """What is switched on."""
-
-    rulings: bool = False
-    creases: bool = True
-    sheet: bool = True
-    seed: bool = True
-    reference: bool = True
 
 
 class Scene:
@@ -46,9 +35,10 @@ class Scene:
         self.shown = Shown()
         self._client, self._scene = client, client.scene
         self._found: Found | None = None
+        self._view: View | None = None
         self._axes = np.eye(3)
         self._tint = None
-        self._folded, self._sheet = _Paper(client.scene, "/folded"), _Paper(client.scene, "/sheet")
+        self._folded, self._sheet = Paper(client.scene, "/folded"), Paper(client.scene, "/sheet")
 
     @property
     def extent(self) -> tuple[np.ndarray, float]:
@@ -61,9 +51,14 @@ class Scene:
         return middle, float(np.linalg.norm(points - middle, axis=1).max())
 
     @property
+    def points(self) -> np.ndarray:
+        """Points (N, 3) of the paper, or the plates, on screen."""
+        return self._folded.points
+
+    @property
     def height_of_paper(self) -> float:
         """Smallest extent of the paper as it is on screen: that of the flat sheet is 0."""
-        points = self._folded.points
+        points = self.points
         return float(np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[-1] / np.sqrt(len(points)))
 
     def show(self, found: Found) -> None:
@@ -73,17 +68,15 @@ class Scene:
             self._axes = found.axes
         with self._client.atomic():
             self.pose(found.folded)
-            self._show_sheet(found)
-            self._show_marks(found)
-            self._show_reference(found)
+            self._show_around(found)
 
     def pose(self, view: View | None) -> None:
         """Show another state, or plates, instead of the structure; marks that belong to it disappear."""
         with self._client.atomic():
             self._drop_tint()
+            self._view = view
             self._folded.show(view, self.shown)
-            for name in MARKS:
-                self._scene.remove_by_name(name)
+            self._remove(MARKS)
 
     def tint(self, tint: Tint) -> None:
         """Lay colours over the structure."""
@@ -92,10 +85,24 @@ class Scene:
             self._folded.hide_paper()
             self._tint = self._scene.add_mesh_trimesh("/colours", _textured(tint), cast_shadow=False, receive_shadow=False)
 
+    def pale(self) -> None:
+        """Show that what is on screen is not the structure of the design any more."""
+        with self._client.atomic():
+            self._drop_tint()
+            self._remove((*MARKS, *OVERLAP))
+            for paper in (self._folded, self._sheet):
+                paper.pale()
+
     def redraw(self) -> None:
-        """Show the last design again, after a switch was turned."""
-        if self._found is not None:
-            self.show(self._found)
+        """Show the same again, after a switch was turned."""
+        if self._found is None:
+            return
+        with self._client.atomic():
+            self._folded.show(self._view, self.shown)
+            if self._tint is not None:
+                self._folded.hide_paper()
+            self._remove(MARKS)
+            self._show_around(self._found)
 
     def frame(self) -> None:
         """Move the camera to where the whole structure, and the sheet beside it, is well seen."""
@@ -121,6 +128,16 @@ class Scene:
         self._scene.add_light_hemisphere("/sky", sky_color=SKYLIGHT, ground_color=GROUND, intensity=SKY,
                                          position=middle + self._axes[1])
 
+    def _show_around(self, found: Found) -> None:
+        self._show_sheet(found)
+        if self._view is found.folded:
+            self._show_marks(found)
+        self._show_reference(found)
+
+    def _remove(self, names: Iterable[str]) -> None:
+        for name in names:
+            self._scene.remove_by_name(name)
+
     def _drop_tint(self) -> None:
         if self._tint is not None:
             self._tint.remove()
@@ -129,8 +146,7 @@ class Scene:
     def _show_sheet(self, found: Found) -> None:
         view = found.sheet if self.shown.sheet else None
         self._sheet.show(view, self.shown)
-        for name in ("/overlap", "/overlap/words"):
-            self._scene.remove_by_name(name)
+        self._remove(OVERLAP)
         if view is None or found.folded is None:
             return
         place, scale, _ = self._sheet_place(found)
@@ -165,73 +181,25 @@ class Scene:
     def _show_marks(self, found: Found) -> None:
         if found.seed is not None and self.shown.seed:
             line = np.stack([found.seed[:-1], found.seed[1:]], axis=1).astype(np.float32)
-            self._scene.add_line_segments("/seed", line, _bytes(SEED), thickness=3.0, thickness_units="screen")
+            self._scene.add_line_segments("/seed", line, ink_bytes(SEED), thickness=3.0, thickness_units="screen")
         if found.trouble is not None:
             self._mark("/trouble", found.trouble, 0.02 * self.extent[1], "problem here")
 
     def _mark(self, name: str, place: np.ndarray, radius: float, words: str) -> None:
-        self._scene.add_icosphere(name, radius, _bytes(MARK), position=place, cast_shadow=False)
+        self._scene.add_icosphere(name, radius, ink_bytes(MARK), position=place, cast_shadow=False)
         self._scene.add_label(f"{name}/words", words)
 
     def _show_reference(self, found: Found) -> None:
-        self._scene.remove_by_name("/reference")
-        if found.reference is not None and self.shown.reference:
-            points, triangles = found.reference
-            self._scene.add_mesh_simple("/reference", points, triangles, color=_bytes(GLASS), opacity=0.25, side="double",
-                                        cast_shadow=False, receive_shadow=False)
-
-
-class _Paper:
-    """A view as nodes: the front and the back of the paper, and its lines."""
-
-    def __init__(self, scene, name: str):
-        self._scene, self._name = scene, name
-        self._frame = scene.add_frame(name, show_axes=False)
-        self._sides: list = []
-        self._lines: dict = {}
-
-    @property
-    def points(self) -> np.ndarray:
-        """Points (N, 3) of the paper on screen."""
-        return np.asarray(self._sides[0].vertices, dtype=float)
-
-    def show(self, view: View | None, shown: Shown) -> None:
-        """Show a view; None for nothing."""
-        self._frame.visible = view is not None
-        if view is None:
+        """The reference surface like glass, and in another colour where no structure lies over it."""
+        self._remove(name for name, *_ in SURFACES.values())
+        reference = found.reference
+        if reference is None or not self.shown.reference:
             return
-        if not self._sides:
-            self._sides = [self._scene.add_mesh_simple(
-                f"{self._name}/{side}", view.points, view.triangles, color=_bytes(ink), side=side, receive_shadow=False,
-                cast_shadow=False) for side, ink in (("front", colours.PAPER), ("back", colours.BACK_OF_PAPER))]
-        for mesh in self._sides:
-            mesh.vertices, mesh.faces = view.points, view.triangles
-            mesh.visible = True
-        for name, segments in view.lines.items():
-            wanted = len(segments) > 0 and (shown.rulings if name == "ruling" else shown.creases)
-            self._line(name, segments, wanted)
-
-    def place(self, position: np.ndarray, scale: float, turn: np.ndarray) -> None:
-        """Put everything at a position, scaled and turned by a quaternion (w, x, y, z)."""
-        self._frame.position, self._frame.wxyz = position, turn
-        for node in (*self._sides, *self._lines.values()):
-            node.scale = scale
-
-    def hide_paper(self) -> None:
-        """Leave the lines only."""
-        for mesh in self._sides:
-            mesh.visible = False
-
-    def _line(self, name: str, segments: np.ndarray, wanted: bool) -> None:
-        node = self._lines.get(name)
-        if node is None and wanted:
-            ink, thickness = INKS[name]
-            node = self._lines[name] = self._scene.add_line_segments(
-                f"{self._name}/{name}", segments, _bytes(ink), thickness=thickness, thickness_units="screen")
-        elif node is not None and wanted:
-            node.points = segments
-        if node is not None:
-            node.visible = wanted
+        for is_covered, (name, ink, opacity) in SURFACES.items():
+            chosen = reference.is_covered == is_covered
+            if chosen.any():
+                self._scene.add_mesh_simple(name, reference.points, reference.triangles[chosen], color=ink_bytes(ink),
+                                            opacity=opacity, side="double", cast_shadow=False, receive_shadow=False)
 
 
 def _textured(tint: Tint):
@@ -248,11 +216,6 @@ def _textured(tint: Tint):
     places = np.column_stack([(column + 0.5) / (last + 1), np.full(len(column), 0.5)])
     paint = PBRMaterial(baseColorTexture=Image.fromarray(strip), metallicFactor=0.0, roughnessFactor=1.0, doubleSided=True)
     return Trimesh(tint.points, tint.triangles, visual=TextureVisuals(uv=places, material=paint), process=False)
-
-
-def _bytes(colour: str) -> tuple[int, int, int]:
-    red, green, blue = np.round(255 * colours.rgb(colour)).astype(int).tolist()
-    return red, green, blue
 
 
 def _quaternion(axes: np.ndarray) -> np.ndarray:

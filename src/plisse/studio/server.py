@@ -12,6 +12,7 @@ from plisse.errors import PlisseError
 from plisse.extras import optional
 from plisse.recipe import Recipe
 from plisse.studio.gate import Gate
+from plisse.studio.inside import forbid_sharing
 from plisse.studio.page import with_additions
 from plisse.studio.tab import Tab
 
@@ -36,7 +37,7 @@ class Studio:
         self._first = recipe, title
         with _guarded(gate), contextlib.redirect_stdout(io.StringIO()):
             self._server: ViserServer = viser.ViserServer(gate.host, port, label="plisse studio", verbose=False)
-        self._forbid_sharing()
+        forbid_sharing(self._server)
         self._server.gui.configure_theme(control_width="large", show_logo=False, show_share_button=False)
         self._server.scene.world_axes.visible = False
         self._server.scene.configure_default_lights(False)
@@ -68,12 +69,6 @@ class Studio:
         tab = self.tabs.pop(client.client_id, None)
         if tab is not None:
             await self._server.get_event_loop().run_in_executor(None, tab.close)
-
-    def _forbid_sharing(self) -> None:
-        """No browser may ask viser for a public address of this server."""
-        from viser import _messages as messages
-
-        self._server._websock_server.unregister_handler(messages.ShareUrlRequest)
 
 
 def _amend(response) -> None:

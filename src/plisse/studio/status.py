@@ -6,7 +6,7 @@ from html import escape
 from plisse.result import Report
 from plisse.studio.requests import Found
 
-__all__ = ["Status", "failed", "numbers_of", "solved", "working"]
+__all__ = ["Status", "broken", "numbers_of", "refused", "solved", "working"]
 
 MARKS = {"exact": ("✔", "#1f6b4a"), "approximate": ("≈", "#8a5a00"), "infeasible": ("✖", "#9b2f24"),
          "draft": ("…", "#4d463f")}
@@ -22,7 +22,7 @@ class Status:
     brief: str
 
 
-def solved(found: Found, title: str) -> Status:
+def solved(found: Found, title: str, above: str = "") -> Status:
     """Status, numbers and sentences of a solved design; those of a draft say that they are of a draft."""
     report = found.report
     sentences = [*report.reasons, *report.warnings]
@@ -30,18 +30,28 @@ def solved(found: Found, title: str) -> Status:
     listed = "".join(f"<li>{escape(sentence)}</li>" for sentence in sentences[:MOST_SENTENCES] + more)
     note = f"coarse while you pull: {report.vertices:,} vertices" if found.drafted else title
     return _status("draft" if found.drafted else report.status, "", note,
-                   f"{_table(report)}<ul style='margin:0.3em 0;padding-left:1.2em'>{listed}</ul>")
+                   f"{_table(report)}<ul style='margin:0.3em 0;padding-left:1.2em'>{listed}</ul>", above)
 
 
-def failed(sentence: str) -> Status:
-    """A request that came to nothing."""
-    return _status("infeasible", "not done", sentence, role="alert")
+def refused(sentence: str, found: Found | None, title: str) -> Status:
+    """Why something was not done, above the status of what is still on screen."""
+    if found is None:
+        return _status("infeasible", "not done", sentence)
+    above = (f"<div role='alert' style='border-left:0.3em solid {MARKS['infeasible'][1]};padding-left:0.5em;"
+             f"margin-bottom:0.4em'><b>not done:</b> {escape(sentence)}</div>")
+    status = solved(found, title, above)
+    return Status(status.html, f"{MARKS['infeasible'][0]} not done · {sentence}")
+
+
+def broken(sentence: str, before: Found | None) -> Status:
+    """Why a design has no structure; what is pale on screen is that of the design before."""
+    return _status("infeasible", "not done", sentence, "" if before is None else
+                   f"<div>Pale is what was there before.</div>{_pale(before)}")
 
 
 def working(stage: str, fraction: float, before: Found | None) -> Status:
     """What is being done; the numbers of the design before are pale, for they are not those of this one."""
-    pale = "" if before is None else f"<div style='opacity:0.4'>{_table(before.report)}</div>"
-    return _status("draft", "working", f"{stage} ({100 * fraction:.0f} %)", pale)
+    return _status("draft", "working", f"{stage} ({100 * fraction:.0f} %)", "" if before is None else _pale(before))
 
 
 def numbers_of(report: Report) -> list[tuple[str, str]]:
@@ -67,11 +77,15 @@ def numbers_of(report: Report) -> list[tuple[str, str]]:
     return rows
 
 
-def _status(status: str, word: str, note: str, below: str = "", role: str = "status") -> Status:
+def _pale(found: Found) -> str:
+    return f"<div style='opacity:0.4'>{_table(found.report)}</div>"
+
+
+def _status(status: str, word: str, note: str, below: str = "", above: str = "") -> Status:
     mark, colour = MARKS[status]
     badge = (f"<span id='plisse-status' style='background:{colour};color:white;border-radius:0.3em;padding:0.1em 0.5em'>"
              f"{mark} {word or status}</span>")
-    return Status(f"<div role='{role}' aria-live='polite' style='{STYLE}'>{badge} {escape(note)}{below}</div>",
+    return Status(f"<div role='status' aria-live='polite' style='{STYLE}'>{above}{badge} {escape(note)}{below}</div>",
                   f"{mark} {word or status} · {note}")
 
 

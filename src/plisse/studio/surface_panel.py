@@ -69,10 +69,10 @@ class SurfacePanel:
 
     async def _uploaded(self, event) -> None:
         file = event.target.value
-        self._tab.upload_mesh(file.name, file.content)
+        self._tab.act(lambda: self._tab.errands.upload_mesh(file.name, file.content))
 
     async def _searched(self, _event) -> None:
-        self._tab.lay_out(self._count.value)
+        self._tab.errands.lay_out(self._count.value)
 
     async def _forgotten(self, _event) -> None:
         self._guide = []
@@ -90,8 +90,8 @@ class SurfacePanel:
         found, recipe = self._tab.found, self._tab.desk.recipe
         if found is None or found.reference is None or not isinstance(recipe, SurfaceDesign):
             return
-        points, triangles = found.reference
-        hit = first_hit(points, triangles, np.array(event.ray_origin), np.array(event.ray_direction))
+        points = found.reference.points
+        hit = first_hit(points, found.reference.triangles, np.array(event.ray_origin), np.array(event.ray_direction))
         if hit is None:
             return
         size = float(np.linalg.norm(np.ptp(points, axis=0)))

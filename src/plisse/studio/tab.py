@@ -10,30 +10,18 @@ import numpy as np
 
 from plisse.errors import PlisseError
 from plisse.io.designs import read_design
-from plisse.recipe import Recipe, SurfaceDesign
+from plisse.recipe import Recipe
 from plisse.shipped import shipped_design
 from plisse.studio.child import Answer, Failure, Stage
-from plisse.studio.downloads import file_name
+from plisse.studio.errands import Errands
 from plisse.studio.handles import Handles, control_points_of
 from plisse.studio.model import Desk
 from plisse.studio.pace import Pace
 from plisse.studio.panels import Panels
-from plisse.studio.requests import (
-    Candidates,
-    Colour,
-    Fetch,
-    Found,
-    Mesh,
-    Pose,
-    Reach,
-    Request,
-    Solid,
-    Solve,
-    Take,
-)
+from plisse.studio.requests import Colour, Found, Pose, Request, Solid, Solve
 from plisse.studio.scene import Scene
-from plisse.studio.status import failed, solved, working
-from plisse.studio.uploads import limit_uploads
+from plisse.studio.status import broken, refused, solved, working
+from plisse.studio.uploads import Uploads
 from plisse.studio.worker import Worker
 
 if TYPE_CHECKING:
@@ -56,12 +44,11 @@ class Tab:
         self.solid: tuple[str, float] = "", 0.0
         self.percent = 100.0
         self.is_open = True
-        self._framed = False
+        self._framed = self._is_refused = False
         self._rest: asyncio.TimerHandle | None = None
-        self._waiting_for_result: list[Callable] = []
-        self._hands = Worker(self._deliver)
-        self._helper: Worker | None = None
-        limit_uploads(client)
+        self._hands = Worker(self.deliver)
+        self._uploads = Uploads(client)
+        self.errands = Errands(self)
         self.scene = Scene(client)
         self.handles = Handles(client, self._point_moved, lambda index: self.panels.point_chosen(index))
         self.panels = Panels(self)
@@ -73,7 +60,7 @@ class Tab:
         try:
             action()
         except PlisseError as error:
-            self.panels.say(failed(str(error)))
+            self.refuse(str(error))
             return self.panels.refresh()
         if self.desk.step is not before:
             self._solve()
@@ -93,48 +80,43 @@ class Tab:
         self._framed = False
         self.act(lambda: self.desk.read(text, title))
 
-    def upload_mesh(self, name: str, content: bytes) -> None:
-        """Check an uploaded mesh and, if it is a surface, lay pleats over it."""
-        def put() -> None:
-            shown = self.desk.shelf.put(name, content)
-            self._aside.ask(Mesh(self.desk.shelf.path(shown), shown))
-
-        self.act(put)
-
     def pose(self, percent: float) -> None:
         """Show a state of the motion."""
         self.percent = percent
-        if percent == 100.0:
-            self.scene.redraw()
-        else:
-            self._hands.ask(Pose(self.desk.solvable, percent))
+        self._dress()
 
     def paint(self, name: str) -> None:
-        """Lay a colour map over the structure, or none for the empty name."""
+        """Lay a colour map over the structure as it was designed, or none for the empty name."""
         self.colour = name
-        self._dress()
+        self._stand_still()
 
     def solidify(self, kind: str, length: float) -> None:
         """Show plates or an offset instead of the structure, or the structure itself for the empty kind."""
         self.solid = kind, length
-        self._dress()
+        self._stand_still()
 
-    def take(self, kind: str) -> None:
-        """Make a file of what is on screen and hand it over."""
-        title = self.desk.step.title
-        self.with_result(lambda result: self._aside.ask(Take(result, title, kind)))
-        self.panels.note(f"making {file_name(title, kind)} …")
+    def ask(self, request: Request) -> None:
+        """Ask the process that has the result of what is on screen."""
+        self._hands.ask(request)
 
-    def lay_out(self, count: int) -> None:
-        """Search for layouts over the surface."""
-        recipe = self.desk.solvable
-        if isinstance(recipe, SurfaceDesign):
-            self._aside.ask(Candidates(recipe, count))
+    def refuse(self, sentence: str) -> None:
+        """Say that something was not done; what is on screen stays."""
+        self._is_refused = True
+        self.panels.say(refused(sentence, self.found, self.desk.step.title))
 
-    def with_result(self, use: Callable) -> None:
-        """Call `use` with the whole result of what is on screen, once it is there."""
-        self._waiting_for_result.append(use)
-        self._hands.ask(Fetch(self.desk.solvable))
+    def say_found(self) -> None:
+        """Say what is on screen."""
+        self._is_refused = False
+        if self.found is not None:
+            self.panels.say(solved(self.found, self.desk.step.title))
+
+    def show_handles(self) -> None:
+        """Put the handles where the control points are."""
+        self.handles.show(control_points_of(self.desk.recipe), self.scene.extent[1], self.panels.handles_wanted)
+
+    def deliver(self, request: Request, message: Answer | Failure | Stage) -> None:
+        """Take in a message from a process; may be called from any thread."""
+        self._loop.call_soon_threadsafe(self._receive, request, message)
 
     def close(self) -> None:
         """End the processes and remove the files."""
@@ -142,16 +124,8 @@ class Tab:
         if self._rest is not None:
             self._loop.call_soon_threadsafe(self._rest.cancel)
         self._hands.close()
-        if self._helper is not None:
-            self._helper.close()
+        self.errands.close()
         self.desk.close()
-
-    @property
-    def _aside(self) -> Worker:
-        """The process for what takes longer, so that it is in nobody's way."""
-        if self._helper is None:
-            self._helper = Worker(self._deliver)
-        return self._helper
 
     def _solve(self, at_once: bool = False) -> None:
         """Ask for the design on the desk: a draft while it changes where the whole would take too long."""
@@ -159,11 +133,12 @@ class Tab:
         self._later(None)
         draft = self._pace.draft(recipe)
         if draft is not None:
-            self._hands.ask(Solve(draft, drafted=True))
+            self._hands.ask(Solve(draft, drafted=True, colour=self.colour))
+        whole = Solve(recipe, framed=not self._framed, colour=self.colour)
         if at_once or not self._pace.waits(recipe):
-            self._hands.ask(Solve(recipe, framed=not self._framed))
+            self._hands.ask(whole)
         else:
-            self._later(lambda: self._hands.ask(Solve(recipe, framed=not self._framed)))
+            self._later(lambda: self._hands.ask(whole))
 
     def _later(self, action: Callable | None, seconds: float = REST) -> None:
         if self._rest is not None:
@@ -176,43 +151,51 @@ class Tab:
             points[index] = self.panels.rounded(position)
             self.change({"curve.points": points.tolist()})
 
-    def _deliver(self, request: Request, message: Answer | Failure | Stage) -> None:
-        self._loop.call_soon_threadsafe(self._receive, request, message)
-
     def _receive(self, request: Request, message: Answer | Failure | Stage) -> None:
-        if isinstance(message, Stage):
-            if isinstance(request, Candidates) or (isinstance(request, Solve) and not self._pace.is_fast):
+        if not self.is_open:
+            return
+        if not isinstance(request, Solve | Pose | Solid | Colour):
+            self.errands.receive(request, message)
+        elif isinstance(message, Stage):
+            if isinstance(request, Solve) and not self._pace.is_fast:
                 self.panels.say(working(message.name, message.fraction, self.found))
         elif isinstance(message, Failure):
-            self.panels.say(failed(message.sentence))
-            if isinstance(request, Fetch):
-                self._waiting_for_result.clear()
+            self._break(request, message.sentence)
         else:
             self._take_in(request, message)
 
     def _take_in(self, request: Request, answer: Answer) -> None:
         value = answer.value
+        if self._is_refused and not isinstance(request, Solve):
+            self.say_found()
         if isinstance(request, Solve):
             self._show(request, value, answer.seconds)
-        elif isinstance(request, Pose | Solid):
-            if self.solid[0] if isinstance(request, Solid) else request.percent == self.percent:
+        elif isinstance(request, Pose):
+            if request.percent == self.percent:
+                self.scene.pose(value)
+        elif isinstance(request, Solid):
+            if self.solid == (request.kind, request.length):
                 self.scene.pose(value)
         elif isinstance(request, Colour) and self.colour == request.name:
             self.scene.tint(value)
             self.panels.show_scale(value)
-        elif isinstance(request, Fetch):
-            waiting, self._waiting_for_result = self._waiting_for_result, []
-            for use in waiting:
-                use(value)
-        elif isinstance(request, Reach):
-            self.panels.show_reach(*value)
-        elif isinstance(request, Take):
-            self.client.send_file_download(file_name(request.title, request.kind), value, save_immediately=True)
-            self.panels.note(f"{file_name(request.title, request.kind)} is in your downloads")
-        elif isinstance(request, Mesh):
-            self.read(f'[surface]\nfile = "{request.name}"\n', request.name.rpartition(".")[0])
-        elif isinstance(request, Candidates):
-            self.panels.show_candidates(*value)
+
+    def _break(self, request: Request, sentence: str) -> None:
+        """Say why there is nothing; where that is the whole design, what was on screen before is pale."""
+        if isinstance(request, Solve):
+            if not request.drafted:
+                self.scene.pale()
+                self.panels.say(broken(sentence, self.found))
+                self.found = None
+            return
+        if isinstance(request, Colour):
+            self._to_paper()
+        self.refuse(sentence)
+
+    def _to_paper(self) -> None:
+        self.colour = ""
+        self.panels.show_paper()
+        self._dress()
 
     def _show(self, request: Solve, found: Found, seconds: float) -> None:
         if not request.drafted:
@@ -220,32 +203,40 @@ class Tab:
         self.found = found
         self.percent = 100.0
         self.scene.show(found)
+        if found.tint is not None and not self.solid[0]:
+            self.scene.tint(found.tint)
+        self.panels.show_scale(None if self.solid[0] else found.tint)
         if request.framed and found.folded is not None:
             self._framed = True
             self.scene.frame()
+            self.panels.fit(self.scene.extent[1])
         self.show_handles()
-        self.panels.say(solved(found, self.desk.step.title))
+        self.say_found()
+        self.panels.forget_reach()
         self.panels.refresh()
         if not request.drafted:
-            if self.solid[0] or self.colour:
+            if self.solid[0] or self.colour != request.colour:
                 self._dress()
+            elif self.colour and found.tint is None:
+                self._to_paper()
             if found.report.principal:
-                self._later(lambda: self.with_result(self._measure_reach), LONGER)
+                self._later(self.errands.measure_reach, LONGER)
 
-    def _measure_reach(self, result) -> None:
-        if result.structure is not None:
-            self._aside.ask(Reach(result.structure))
-
-    def show_handles(self) -> None:
-        """Put the handles where the control points are."""
-        self.handles.show(control_points_of(self.desk.recipe), self.scene.extent[1], self.panels.handles_wanted)
+    def _stand_still(self) -> None:
+        """Go back to the structure as it was designed, and show it as it is chosen."""
+        if self.percent != 100.0:
+            self.percent = 100.0
+            self.panels.refresh()
+        self._dress()
 
     def _dress(self) -> None:
-        """Ask for what the structure is shown as, where that is not plain paper."""
-        if self.solid[0]:
+        """Show the structure as it is chosen: in a state of its motion, as plates or an offset, in colours, or as paper."""
+        if self.percent != 100.0:
+            self._hands.ask(Pose(self.desk.solvable, self.percent))
+        elif self.solid[0]:
             self._hands.ask(Solid(self.desk.solvable, *self.solid))
         elif self.colour:
-            self._hands.ask(Colour(self.desk.solvable, self.colour))
-        else:
-            self.panels.show_scale(None)
-            self.scene.redraw()
+            return self._hands.ask(Colour(self.desk.solvable, self.colour))
+        elif self.found is not None:
+            self.scene.show(self.found)
+        return self.panels.show_scale(None)

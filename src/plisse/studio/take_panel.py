@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plisse.studio.downloads import KINDS, file_name
+from plisse.studio.downloads import KINDS, MATERIAL, file_name
 
 if TYPE_CHECKING:
     from plisse.studio.tab import Tab
 
 __all__ = ["TakePanel"]
+
+SMALLEST, LARGEST = (50.0, 50.0), (5000.0, 5000.0)  # mm
 
 
 class TakePanel:
@@ -19,6 +21,7 @@ class TakePanel:
         self._tab, gui = tab, tab.client.gui
         with gui.add_folder("Files"):
             self._kind = gui.add_dropdown("format", tuple(KINDS))
+            self._material = gui.add_vector2("material of pieces (mm)", MATERIAL, min=SMALLEST, max=LARGEST, step=1.0)
             gui.add_button("Download", icon="download").on_click(self._taken)
         with gui.add_folder("Design as text"):
             self._text = gui.add_text("design (TOML)", "", multiline=True)
@@ -31,7 +34,9 @@ class TakePanel:
         self._text.value = self._tab.desk.toml
 
     async def _taken(self, _event) -> None:
-        self._tab.take(self._kind.value)
+        material = float(self._material.value[0]), float(self._material.value[1])
+        manner = {"material": material, **self._tab.panels.manner}
+        self._tab.act(lambda: self._tab.errands.take(self._kind.value, **manner))
 
     async def _read(self, _event) -> None:
         self._tab.read(self._text.value)

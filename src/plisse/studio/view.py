@@ -10,8 +10,9 @@ from plisse.measure.folds import assignments
 from plisse.structure.front import front_up
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Topology
+from plisse.transform.flex import Motion
 
-__all__ = ["Tint", "View", "flat_view", "folded_view", "tinted"]
+__all__ = ["Tint", "View", "flat_view", "folded_view", "posed_view", "tinted"]
 
 SHADES = 128
 LETTERS = {"mountain": "M", "valley": "V", "flat": "F", "boundary": "B"}
@@ -45,6 +46,12 @@ def folded_view(structure: PleatedStructure) -> View:
     """The structure in space, as float32."""
     letters = assignments(structure.topology, structure.vertices)
     return _view(structure.topology, structure.vertices, letters)
+
+
+def posed_view(motion: Motion, percent: float) -> View:
+    """A state of the motion in space, with the mountains and valleys of the structure as it was designed."""
+    letters = assignments(motion.topology, motion.at(100.0).vertices[0])
+    return _view(motion.topology, motion.at(percent).vertices[0], letters)
 
 
 def flat_view(structure: PleatedStructure) -> View:

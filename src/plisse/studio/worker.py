@@ -1,7 +1,6 @@
 """Requests of one client, answered outside of the server's process: the newest wins, a crash ends one request only."""
 
 import contextlib
-import os
 import pickle
 import queue
 import subprocess
@@ -12,12 +11,12 @@ from time import monotonic
 
 from plisse.studio.child import Answer, Failure, Stage
 from plisse.studio.requests import Request
+from plisse.threads import child_environment
 
 __all__ = ["Worker"]
 
 PATIENCE = 2.0  # seconds that a stale request may still take before its process is ended
 START = 60.0
-THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
 COMMAND = "from plisse.studio.child import main; main()"
 
 Deliver = Callable[[Request, Answer | Failure | Stage], None]
@@ -85,7 +84,10 @@ class Worker:
 
     def _outcome(self, number: int, request: Request) -> Answer | Failure | None:
         """What the request came to; None where it was dropped."""
-        if self._process is None or not self._process.is_alive:
+        if self._process is not None and not self._process.is_alive:
+            self._process.end()
+            self._process = None
+        if self._process is None:
             self._process = _Process()
         process, begun, told = self._process, monotonic(), False
         process.send(number, request)
@@ -117,7 +119,7 @@ class _Process:
 
     def __init__(self):
         self._popen = subprocess.Popen([sys.executable, "-c", COMMAND], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                       env={**os.environ, **dict.fromkeys(THREADS, "1")})
+                                       env=child_environment())
         self._messages: queue.SimpleQueue = queue.SimpleQueue()
         self._ended = threading.Event()
         self.is_new = True

@@ -1,0 +1,169 @@
+"""Designing in a real browser: pick, pull, type, take back."""
+
+import json
+import time
+import tomllib
+
+import numpy as np
+import pytest
+from fold_check import defects
+from recipes import COIL
+from visitor import record, until
+
+from plisse.io.designs import design_from_dict
+
+pytestmark = pytest.mark.browser
+THETA = "inclination θ (°)"
+
+
+def test_a_design_is_changed_taken_away_and_taken_back_to_the_very_same_files(visitor):
+    tab, first = visitor.tab_behind, visitor.text
+    name, file = visitor.download("FOLD")
+    visitor.tab("Design")
+    visitor.slide(THETA, *["ArrowLeft"] * 5)
+    until(lambda: tab.found.report.design["pattern"]["theta"] == visitor.number(THETA) < 40)
+    visitor.wait_for("exact")
+    visitor.slide("creases", "ArrowRight")
+    until(lambda: tab.found.report.vertices == 8 * 61)
+    changed = visitor.text
+    assert design_from_dict(tomllib.loads(changed)) == tab.desk.recipe
+    other = visitor.download("FOLD")
+    for defect in defects(json.loads(other[1])):
+        assert defect < 1e-9
+    assert (name, other[0]) == ("a-wave.fold", "a-wave.fold")
+    for _ in range(5):
+        visitor.button("undo")
+    until(lambda: not tab.desk.can_undo)
+    assert visitor.text == first
+    assert visitor.download("FOLD")[1] == file != other[1]
+    visitor.page.locator("canvas").first.focus()
+    for _ in range(5):
+        visitor.page.keyboard.press("Control+Shift+Z")
+    until(lambda: not tab.desk.can_redo)
+    assert visitor.text == changed
+
+
+def test_sixty_changes_in_a_second_leave_the_last_one_on_screen(visitor):
+    tab = visitor.tab_behind
+    visitor.slide(THETA)
+    visitor.page.evaluate("""async () => {
+        const slider = document.activeElement;
+        for (let k = 0; k < 60; k++) {
+            const key = k % 4 == 3 ? "ArrowRight" : "ArrowLeft";
+            slider.dispatchEvent(new KeyboardEvent("keydown", { key, code: key, bubbles: true }));
+            await new Promise(done => setTimeout(done, 1000 / 60));
+        }
+    }""")
+    last = visitor.number(THETA)
+    assert last < 35
+    until(lambda: tab.found.report.design["pattern"]["theta"] == last and not tab.found.drafted)
+    visitor.wait_for("exact")
+    assert tomllib.loads(visitor.text)["pattern"]["theta"] == last
+
+
+def test_a_control_point_is_pulled(visitor):
+    tab, frames, mouse = visitor.tab_behind, [], visitor.page.mouse
+    before = tab.desk.recipe.curve.points
+    visitor.page.get_by_role("slider", name="point", exact=True).focus()
+    visitor.page.keyboard.press("ArrowRight")
+    arrows = tab.handles.arrows
+    until(lambda: arrows.position[0] == before[1][0])
+    visitor.rest()
+    tip = arrows.position + np.array([0, 0.6 * arrows.scale, 0])
+    visitor.frame(frames)
+    mouse.move(*visitor.place_of(tip))
+    time.sleep(0.5)
+    mouse.down()
+    for step in range(1, 11):
+        mouse.move(*visitor.place_of(tip + np.array([0, 0.5 * step, 0])))
+        visitor.frame(frames)
+    mouse.up()
+    until(lambda: tab.desk.recipe.curve.points[1][1] > before[1][1] + 3)
+    until(lambda: not tab.handles.is_pulled)
+    after = tab.desk.recipe.curve.points
+    assert [after[0], *after[2:]] == [before[0], *before[2:]]
+    assert after[1][::2] == pytest.approx(before[1][::2], abs=0.01)
+    until(lambda: tab.found.report.design["curve"]["points"] == after and not tab.found.drafted)
+    visitor.wait_for("exact")
+    visitor.frame(frames)
+    record(frames, "studio.gif")
+
+
+def test_control_points_are_added_snapped_closed_and_taken_away_with_the_keyboard(visitor):
+    page, tab = visitor.page, visitor.tab_behind
+
+    def points():
+        return tab.desk.recipe.curve.points
+
+    before = points()
+    page.get_by_role("button", name="add", exact=True).press("Enter")
+    until(lambda: len(points()) == 5)
+    assert points()[1] == [20, 9, 4]
+    page.get_by_role("button", name="remove", exact=True).press("Enter")
+    until(lambda: len(points()) == 4)
+    assert before[0] not in points()
+    visitor.choose("points lie", "in a plane xy")
+    until(lambda: len({z for _, _, z in points()}) == 1)
+    page.get_by_role("checkbox", name="closed curve", exact=True).press("Space")
+    until(lambda: tab.desk.recipe.curve.closed)
+    until(lambda: tab.found.report.design["curve"]["closed"])
+
+
+def test_inclinations_and_widths_are_set_one_by_one_and_along_the_curve(visitor):
+    tab = visitor.tab_behind
+
+    def pattern():
+        return tab.desk.recipe.pattern
+
+    visitor.fold_out("Width of single strips")
+    visitor.choose("width is", "one by one")
+    visitor.slide("width, strip 2", "ArrowRight")
+    until(lambda: pattern().width[1] > 5 and pattern().width[2:] == [5] * 4)
+    visitor.slide("creases", "ArrowRight")
+    until(lambda: pattern().creases == 8 and len(pattern().width) == 7)
+    visitor.choose("width is", "along the curve")
+    visitor.write("all places", "[[0, 5], [0.5, 7], [1, 5]]")
+    until(lambda: pattern().width == [[0, 5], [0.5, 7], [1, 5]])
+    visitor.fold_out("Inclination θ of single creases")
+    visitor.choose("inclination θ is", "one by one")
+    visitor.slide("inclination θ, crease 8", "ArrowLeft")
+    until(lambda: pattern().theta[:7] == [40] * 7 and pattern().theta[7] < 40)
+    until(lambda: tab.found.report.design["pattern"]["theta"] == pattern().theta and not tab.found.drafted)
+    visitor.wait_for("exact")
+
+
+def test_a_design_of_the_gallery_is_picked_by_its_picture_and_painted(visitor):
+    tab = visitor.tab_behind
+    visitor.button("Gallery …")
+    visitor.page.get_by_role("img", name="fig16").wait_for()
+    visitor.button("Open fig16")
+    visitor.wait_for("exact fig16")
+    assert tab.found.report.design == tab.desk.recipe.to_dict()
+    visitor.rest()
+    visitor.picture("studio.png")
+    visitor.tab("Look")
+    visitor.choose("colours", "opening")
+    visitor.wait_for("opening angle of creases")
+
+
+def test_what_is_refused_or_infeasible_is_said_with_its_place_and_can_be_taken_back(visitor):
+    """A steep helix cuts through itself; pleats wider than the radius of their curve break down."""
+    tab, before = visitor.tab_behind, visitor.text
+    box = visitor.page.get_by_label("design (TOML)")
+    box.fill(before.replace("creases = 7", "creases = 2"))
+    visitor.button("Read the text above")
+    visitor.wait_for("pattern.creases is 2; give a whole number from 3 to 1000")
+    assert tab.desk.toml == before
+    assert "exact" in visitor.status
+    visitor.wait_for("smallest sector")
+    visitor.read(COIL)
+    visitor.wait_for("the folded shape cuts through itself")
+    assert "infeasible" in visitor.status
+    assert visitor.node("/trouble").position == pytest.approx(tab.found.trouble)
+    visitor.read({**COIL, "pattern": {**COIL["pattern"], "theta": 0}})
+    visitor.wait_for("run into their centre of curvature")
+    assert "infeasible" in visitor.status
+    for _ in range(2):
+        visitor.button("undo")
+    visitor.wait_for("exact")
+    assert visitor.text == before

@@ -1,0 +1,108 @@
+"""Looking at a structure in a real browser: motion, colours, plates, camera."""
+
+import numpy as np
+import pytest
+from visitor import until
+
+pytestmark = pytest.mark.browser
+
+
+def test_the_motion_is_scrubbed_from_flat_to_folded_flat_with_its_free_range(visitor):
+    tab = visitor.tab_behind
+    visitor.tab("Look")
+    visitor.slide("folded (%)", "Home")
+    until(lambda: tab.scene.height_of_paper < 1e-3 * tab.scene.extent[1])
+    flat = visitor.seen()
+    visitor.slide("folded (%)", "End")
+    until(lambda: tab.percent == 200)
+    visitor.wait_for("Free of collisions from")
+    visitor.wait_for("free to")
+    until(lambda: not np.array_equal(visitor.seen(), flat))
+    visitor.tab("Design")
+    visitor.slide("inclination θ (°)", "ArrowLeft")
+    until(lambda: tab.found.report.design["pattern"]["theta"] < 40)
+    assert tab.percent == 100
+
+
+def test_plates_offsets_colours_and_lines_are_switches_that_can_be_taken_back(visitor):
+    tab = visitor.tab_behind
+    sheet = len(tab.scene.points)
+    visitor.tab("Look")
+    visitor.choose("as", "plates")
+    until(lambda: len(tab.scene.points) > 8 * len(tab.found.report.design["pattern"]) and len(tab.scene.points) != sheet)
+    plates = len(tab.scene.points)
+    visitor.write("thickness or distance", "1000")
+    visitor.wait_for("not done")
+    assert "exact" in visitor.status
+    visitor.choose("as", "offset")
+    visitor.write("thickness or distance", "2")
+    until(lambda: len(tab.scene.points) == sheet != plates and tab.solid == ("offset", 2))
+    until(lambda: "not done" not in visitor.page.locator("[role=status]").inner_text())
+    visitor.choose("as", "sheet")
+    visitor.choose("colours", "opening")
+    visitor.wait_for("opening angle of creases")
+    painted = visitor.seen()
+    visitor.tick("rulings")
+    until(lambda: not np.array_equal(visitor.seen(), painted))
+    assert visitor.node("/colours") is not None
+    visitor.choose("colours", "paper")
+    until(lambda: visitor.node("/colours") is None)
+
+
+def test_the_camera_turns_is_kept_and_comes_back(visitor):
+    camera = visitor.tab_behind.client.camera
+    visitor.rest()
+    visitor.tab("Look")
+    visitor.button("keep")
+    begun, middle = camera.position.copy(), camera.look_at.copy()
+    away = np.linalg.norm(begun - middle)
+    visitor.tick("turntable")
+    until(lambda: np.linalg.norm(camera.position - begun) > 0.2 * away)
+    visitor.tick("turntable")
+    assert camera.look_at == pytest.approx(middle, abs=1e-3 * away)
+    assert np.linalg.norm(camera.position - camera.look_at) == pytest.approx(away, rel=1e-3)  # float32 on the way
+    visitor.rest()
+    visitor.button("go back")
+    until(lambda: np.linalg.norm(camera.position - begun) < 1e-3 * away)
+    visitor.button("Best view")
+    visitor.rest()
+
+
+def test_every_control_has_a_name_and_is_reached_with_the_keyboard(visitor):
+    page = visitor.page
+    for name in ("Design", "Look", "Surface", "Take away"):
+        visitor.tab(name)
+        page.get_by_role("tab", name=name, selected=True).wait_for()
+        until(lambda: page.evaluate("""() => [...document.querySelectorAll('[role=slider], input, textarea, button')]
+            .every(c => !c.offsetParent || c.type == 'file' || c.type == 'hidden' || c.innerText || c.ariaLabel || c.title
+                        || c.tabIndex < 0 || c.ariaHidden || (c.labels && c.labels.length))"""), seconds=5)
+    visitor.tab("Design")
+    reached = set()
+    for _ in range(40):
+        page.keyboard.press("Tab")
+        reached.add(page.evaluate("document.activeElement.getAttribute('aria-label')"))
+    assert {"inclination θ (°)", "creases", "width (mm)"} <= reached
+    page.get_by_role("tab", name="Design", exact=True).press("Enter")
+
+
+def test_a_phone_of_390_pixels_is_a_viewer(browser, studio):
+    from visitor import Visitor
+
+    phone = Visitor(browser, studio, width=390, height=780)
+    page, camera = phone.page, phone.tab_behind.client.camera
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    phone.rest()
+    begun = camera.position.copy()
+    page.mouse.move(200, 250)
+    page.mouse.down()
+    page.mouse.move(120, 230, steps=6)
+    page.mouse.up()
+    until(lambda: not np.allclose(camera.position, begun))
+    phone.picture("studio-phone.png")
+    page.get_by_text("exact · a wave").click()
+    phone.wait_for("smallest sector")
+    page.get_by_role("tab", name="Look").click()
+    phone.slide("folded (%)", "Home")
+    until(lambda: phone.tab_behind.percent == 0)
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    phone.leave()
