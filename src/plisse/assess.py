@@ -8,6 +8,7 @@ from plisse.measure.measurements import Measurements, measure
 from plisse.measure.planarity import planarity_defect
 from plisse.measure.regularity import MIN_SECTOR, OPENING_RANGE
 from plisse.measure.sectors import angle_defect
+from plisse.measure.shape import Shape
 from plisse.measure.verdict import EXACT, FAR
 from plisse.recipe import MILLIMETRES
 from plisse.result import Interval, Report, Sheet, Spread
@@ -22,20 +23,24 @@ COARSEST = 20.0
 
 
 def assess(structure: PleatedStructure, *, principal: bool = False, guides: np.ndarray | None = None,
-           amplitude: float = 1.0, units: str = "mm") -> Report:
+           amplitude: float = 1.0, units: str = "mm", shape: Shape | None = None,
+           astray: np.ndarray | None = None) -> Report:
     """Report on a structure: status, reasons, and every measure.
 
     `principal` says whether the principal defect belongs to the status; `guides` (m, n, 3) are the curves that the
-    creases should follow, `amplitude` the unit of their deviation. The pipeline adds timings and the way there.
+    creases should follow, `amplitude` the unit of their deviation. What is known already, of the
+    `shape` and of how far creases are `astray` in amplitudes, is not measured again. The pipeline adds timings and the way
+    there.
     """
-    found, inner = measure(structure), structure.topology.is_inner
-    defects = [spread(found.planarity), spread(found.angle[inner])]
-    kawasaki = spread(found.principal[inner])
+    found, inner = measure(structure, shape), structure.topology.is_inner
+    shape = found.shape
+    defects = [spread(shape.planarity), spread(shape.angle[inner])]
+    kawasaki = spread(shape.principal[inner])
     exact = max(defect.max for defect in [*defects, *([kawasaki] if principal else [])]) <= EXACT
-    deviation = _deviation(structure, guides, amplitude)
-    reasons = [*_incomplete(structure, found), *_inexact(structure, found, principal), *_irregular(structure, found),
-               *_not_isometric(found), *_astray(deviation), *_too_coarse(guides, amplitude)]
-    degrees = np.degrees(found.openings)
+    deviation = _deviation(structure, guides, amplitude) if astray is None else spread(astray)
+    reasons = [*_incomplete(shape), *_inexact(shape, principal), *_irregular(shape), *_not_isometric(found),
+               *_astray(deviation), *_too_coarse(guides, amplitude)]
+    degrees = np.degrees(shape.openings)
     return Report(
         status="exact" if not reasons else "infeasible" if exact and not _astray(deviation) else "approximate",
         reasons=reasons,
@@ -45,11 +50,11 @@ def assess(structure: PleatedStructure, *, principal: bool = False, guides: np.n
         angle_defect=defects[1],
         principal_defect=kawasaki,
         principal=bool(inner.any() and exact and kawasaki.max <= EXACT),
-        min_sector_angle_deg=float(np.degrees(found.sectors.min())),
+        min_sector_angle_deg=float(np.degrees(shape.sectors.min())),
         opening_angle_deg=Interval(float(degrees.min()), float(degrees.max())) if degrees.size else None,
         crease_deviation=deviation,
-        inverted_faces=int(found.inverted.sum()),
-        self_intersections=len(found.intersections),
+        inverted_faces=int(shape.inverted.sum()),
+        self_intersections=len(shape.intersections),
         seams=len(joined(structure.topology.seams)),
         isometry=found.isometry,
         development=_sheet(structure, found, units),
@@ -79,59 +84,60 @@ def overlap_notes(report: Report) -> list[str]:
     return [f"the development overlaps itself{place}; cut the sheet apart along rulings and join the pieces after folding"]
 
 
-def _incomplete(structure: PleatedStructure, found: Measurements) -> list[str]:
-    pieces, out = structure.topology.components, []
-    if not found.openings.size:
+def _incomplete(shape: Shape) -> list[str]:
+    pieces, out = shape.topology.components, []
+    if not shape.openings.size:
         out.append("no crease lies between two faces, so there is no fold to judge")
     if pieces > 1:
         out.append(f"the mesh falls into {pieces} pieces; a structure is one")
     return out
 
 
-def _inexact(structure: PleatedStructure, found: Measurements, principal: bool) -> list[str]:
-    topology, out = structure.topology, []
-    if not found.planarity.max() <= EXACT:
-        worst = place_of(topology, topology.faces[int(np.argmax(found.planarity))][0])
-        out.append(f"faces are not planar: the defect reaches {found.planarity.max():.1e} (limit {EXACT:.0e}) at {worst}")
-    for name, defect in (("the sheet does not lie flat: angles miss 2π by", found.angle),
-                         ("the structure is not principal: opposite angles miss π by", found.principal * principal)):
+def _inexact(shape: Shape, principal: bool) -> list[str]:
+    topology, out = shape.topology, []
+    if not shape.planarity.max() <= EXACT:
+        worst = place_of(topology, topology.faces[int(np.argmax(shape.planarity))][0])
+        out.append(f"faces are not planar: the defect reaches {shape.planarity.max():.1e} (limit {EXACT:.0e}) at {worst}")
+    for name, defect in (("the sheet does not lie flat: angles miss 2π by", shape.angle),
+                         ("the structure is not principal: opposite angles miss π by", shape.principal * principal)):
         vertex = int(np.argmax(np.abs(defect)))
         if not abs(defect[vertex]) <= EXACT:
             out.append(f"{name} {abs(defect[vertex]):.1e} rad (limit {EXACT:.0e}) at {place_of(topology, vertex)}")
     return out
 
 
-def _irregular(structure: PleatedStructure, found: Measurements) -> list[str]:
-    topology, corners, out = structure.topology, structure.topology.corners, []
-    if not found.sectors.min() >= MIN_SECTOR:
-        worst = place_of(topology, corners.vertex[int(np.argmin(found.sectors))])
-        out.append(f"faces are slivers: an angle is only {np.degrees(found.sectors.min()):.2f}° (limit 5°) at {worst}; "
+def _irregular(shape: Shape) -> list[str]:
+    topology, corners, out = shape.topology, shape.topology.corners, []
+    if not shape.sectors.min() >= MIN_SECTOR:
+        worst = place_of(topology, corners.vertex[int(np.argmin(shape.sectors))])
+        out.append(f"faces are slivers: an angle is only {np.degrees(shape.sectors.min()):.2f}° (limit 5°) at {worst}; "
                    "a larger amplitude, less torsion or fewer creases help")
-    if found.inverted.any():
-        worst = place_of(topology, topology.faces[int(np.argmax(found.inverted))][0])
-        out.append(f"{found.inverted.sum()} faces are folded over, the first at {worst}; a larger amplitude, narrower "
+    if shape.inverted.any():
+        worst = place_of(topology, topology.faces[int(np.argmax(shape.inverted))][0])
+        out.append(f"{shape.inverted.sum()} faces are folded over, the first at {worst}; a larger amplitude, narrower "
                    "strips or fewer creases help")
-    out += _unfolded(structure, found)
-    if len(found.intersections):
-        one, other = (place_of(topology, topology.faces[face][0]) for face in found.intersections[0])
-        out.append(f"the folded shape cuts through itself in {len(found.intersections)} pairs of faces, for example {one} "
+    out += _unfolded(shape)
+    if len(shape.intersections):
+        one, other = (place_of(topology, topology.faces[face][0]) for face in shape.intersections[0])
+        out.append(f"the folded shape cuts through itself in {len(shape.intersections)} pairs of faces, for example {one} "
                    f"and {other}; fewer creases, narrower strips or a shorter curve help")
     return out
 
 
-def _unfolded(structure: PleatedStructure, found: Measurements) -> list[str]:
+def _unfolded(shape: Shape) -> list[str]:
     """Creases that are folded shut, or no fold at all."""
-    edges = structure.topology.edges
+    edges = shape.topology.edges
     out: list[str] = []
-    if not found.openings.size:
+    if not shape.openings.size:
         return out
     first = edges.vertices[edges.is_crease & ~edges.is_boundary, 0]
     low, high = OPENING_RANGE
-    for wrong, index, what in ((found.openings.min() <= low, np.argmin(found.openings), "folded shut, a smaller theta"),
-                               (found.openings.max() >= high, np.argmax(found.openings), "no fold, a larger amplitude")):
+    for wrong, index, what in ((shape.openings.min() <= low, np.argmin(shape.openings),
+                                "folded shut, a smaller amplitude or theta"),
+                               (shape.openings.max() >= high, np.argmax(shape.openings), "no fold, a larger amplitude")):
         if wrong:
-            out.append(f"the opening angle is {np.degrees(found.openings[index]):.2f}° (limits {np.degrees(low):.0f}° and "
-                       f"{np.degrees(high):.0f}°) at {place_of(structure.topology, first[index])}: {what} helps")
+            out.append(f"the opening angle is {np.degrees(shape.openings[index]):.2f}° (limits {np.degrees(low):.0f}° and "
+                       f"{np.degrees(high):.0f}°) at {place_of(shape.topology, first[index])}: {what} helps")
     return out
 
 

@@ -1,6 +1,8 @@
 """Designs along asymptotic curves, from the recipe to files that others can check."""
 
 import json
+import re
+from importlib.resources import files
 
 import numpy as np
 import pytest
@@ -9,7 +11,9 @@ from scipy.spatial import Delaunay
 
 import plisse
 from plisse.cli import main
+from plisse.designs.deviations import deviation_again
 from plisse.errors import InvalidDesign, InvalidMesh
+from plisse.measure.folds import fold_angles
 from plisse.measure.isometry import isometry_defect
 from plisse.measure.sectors import sector_angles
 from plisse.structure.chains import boundary_loops
@@ -88,11 +92,11 @@ def test_a_polygon_that_is_cut_out_leaves_an_annulus_with_more_than_a_full_turn_
     assert np.radians(365) < cone < np.radians(420)
 
 
-def scattered(path, noise, count=1100, seed=5):
+def scattered(path, noise, count=1100, seed=5, hole=0.0):
     """A saddle that is not harmonic, as a mesh of scattered vertices with noise."""
     rng = np.random.default_rng(seed)
     places = rng.uniform(-0.95, 0.95, (count, 2))
-    places = places[np.hypot(*places.T) < 0.95]
+    places = places[(np.hypot(*places.T) < 0.95) & (np.hypot(*places.T) >= hole)]
     x, y = places.T
     height = 0.2 * (x**3 - 3 * x * y**2) + 0.015 * np.cos(2.2 * x + 0.7) * np.sin(1.9 * y - 0.3) + 0.02 * (x**2 + y**2) ** 2
     triangles = Delaunay(places).simplices
@@ -110,6 +114,76 @@ def test_a_noisy_mesh_of_scattered_vertices_that_is_not_harmonic_works(tmp_path)
     assert report.deviation.mean_amplitudes < 0.5
 
 
+@pytest.mark.slow
+def test_a_mesh_design_is_refined_and_folds_as_its_labels_say(tmp_path):
+    scattered(tmp_path / "saddle.ply", 1e-3)
+    result = made({"kind": "asymptotic", "file": str(tmp_path / "saddle.ply")}, columns=30)
+    assert result.report.status == "exact", result.report.reasons
+    assert not any("doubled" in note for note in result.report.warnings)
+    assert result.report.faces > 250
+    assert folds_as_labelled(result)
+
+
+def folds_as_labelled(result):
+    """Whether every crease folds one way all along, and both ways occur."""
+    topology, vertices = result.structure.topology, result.structure.vertices
+    edges = topology.edges
+    inner = edges.is_crease & ~edges.is_boundary
+    sign = np.sign(fold_angles(topology, vertices))
+    owner = np.full(topology.vertex_count, -1)
+    for number, crease in enumerate(topology.creases):
+        owner[crease.vertices] = number
+    crease = owner[edges.vertices[inner, 0]]
+    total = np.bincount(crease, sign[inner], len(topology.creases))
+    return bool((np.abs(total) == np.bincount(crease, minlength=len(total))).all() and len(set(sign[inner])) == 2)
+
+
+@pytest.mark.slow
+def test_every_crease_of_fig22_is_a_mountain_or_a_valley_all_along():
+    assert folds_as_labelled(plisse.design(str(files("plisse") / "gallery" / "fig22.toml")))
+
+
+def test_little_room_on_one_side_leaves_a_sector_out_and_not_the_whole_pattern():
+    report = made({"kind": "asymptotic", "formula": "0.3*((x - 0.95)**3 - 3*(x - 0.95)*y**2)"}, creases=9, columns=10).report
+    assert report.status == "exact", report.reasons
+    assert report.coverage > 0.1
+    assert any("without a polygon" in note for note in report.warnings)
+    assert any(f"only {100 * report.coverage:.2g} % of the surface" in note for note in report.warnings)
+
+
+def test_columns_that_are_cut_off_are_counted(monkey):
+    assert any(re.match(r"\d+ of 23 columns were left out", note) for note in monkey.report.warnings)
+
+
+def test_only_what_is_curved_negatively_is_pleated():
+    report = made({"kind": "asymptotic", "formula": "x**3 - y**2", "x": [-0.5, 1]}, creases=6, columns=10).report
+    assert report.status == "exact", report.reasons
+    assert any("33 % of the surface are curved like a dome and left out" in note for note in report.warnings)
+
+
+def test_singularities_too_close_to_be_told_apart_count_as_one_of_their_common_index():
+    data = {"kind": "asymptotic", "weierstrass": {"g": "z**3/3 - 1e-6*z"}, "x": [-0.5, 0.5], "y": [-0.5, 0.5]}
+    report = made(data, columns=10).report
+    assert report.status == "exact", report.reasons
+    assert any("index -1" in note and "for 2 of them that are too close" in note for note in report.warnings)
+    assert 0.5 < report.coverage < 1
+    assert 0 < report.deviation.mean_amplitudes < 0.5
+
+
+def test_deviation_is_coloured_from_the_report_of_a_pattern_with_a_polygon(monkey):
+    found = deviation_again(monkey.structure, monkey.report)
+    assert found is not None
+    assert found.largest == pytest.approx(monkey.report.deviation.max_amplitudes)
+
+
+def test_a_mesh_with_a_hole_where_its_singularity_would_be_is_pleated_beside_it(tmp_path):
+    scattered(tmp_path / "saddle.ply", 0, hole=0.3)
+    report = made({"kind": "asymptotic", "file": str(tmp_path / "saddle.ply")}, columns=9).report
+    assert report.status == "exact", report.reasons
+    assert 0 < report.coverage < 0.5
+    assert not any("singularity" in note for note in report.warnings)
+
+
 def test_the_helicoid_needs_no_singularity():
     data = {"kind": "asymptotic", "weierstrass": {"g": "exp(z)", "f": "i*exp(-z)"}, "x": [0.6, 1.5], "y": [-2, 2]}
     report = made(data, creases=6, columns=30).report
@@ -123,6 +197,14 @@ def test_the_helicoid_needs_no_singularity():
     ({"formula": "0.3*(x**3 - 3*x*y**2)"}, {"hub_size": 0.01, "width": 0.14}, "would be slivers; give pattern.hub_size"),
     ({"formula": "0.3*(x**3 - 3*x*y**2)"}, {"width": 2.0}, "give a smaller pattern.width"),
     ({"formula": "0.3*(x**2 - y**2)"}, {}, "straight"),
+    ({"formula": "0.3*(x**3 - 3*x*y**2)"}, {"creases": 200, "columns": 40}, "25 of 28 columns are cut off"),
+    ({"formula": "0.3*(x**3 - 3*x*y**2)"}, {"hub_size": 9.0}, "begin 9 from the singularity (pattern.hub_size)"),
+    ({"formula": "0.3*(x**3 - 3*x*y**2)"}, {"reach": 100.0}, "legs of the singularities leave the surface after"),
+    ({"formula": "0.3*(x**3 - 3*x*y**2)"}, {"reach": 0.05}, "end at 0.05 (pattern.reach)"),
+    ({"formula": "0.3*(x**3 - 3*x*y**2)"}, {"amplitude": 50.0}, "pattern.amplitude is 50, but creases are 0.167 apart"),
+    ({"formula": "0.3*(x**3 - 3*x*y**2)"}, {"width": 1e-6}, "specks on a surface"),
+    ({"weierstrass": {"g": "z**2", "f": "0"}}, {}, "shrinks to a point"),
+    ({"weierstrass": {"g": "exp(50*z)"}}, {}, "times more in one place than in another"),
 ])
 def test_what_cannot_be_is_diagnosed_before_anything_is_solved(surface, pattern, sentence):
     report = made({"kind": "asymptotic", **surface}, **pattern).report
@@ -140,6 +222,12 @@ def test_what_cannot_be_is_diagnosed_before_anything_is_solved(surface, pattern,
     ({"formula": "x*y", "family": 3}, {}, "surface.family.*give 1 or 2"),
     ({"formula": "x*y", "radius": 3}, {}, "surface.radius is not a key of a design; known here: file, formula"),
     ({"weierstrass": {"h": "z"}}, {}, "surface.weierstrass.h is not a key"),
+    ({"formula": "x*y", "x": [-1, 1], "y": [-0.001, 0.001]}, {}, "a strip 0.002 wide and 2 long"),
+    ({"formula": "x*y", "x": [0, 1e-14]}, {}, "give ranges more alike"),
+    ({"formula": "x*y/(x - 0.123)"}, {}, "a pole, a jump or no value near x = 0.123"),
+    ({"weierstrass": {"g": "z**2", "f": "1/(z - 0.0137)"}}, {}, r"weierstrass.f has a pole.*near z = 0.0137"),
+    ({"weierstrass": {"g": "1/(z - 0.313 - 0.217*i)"}}, {}, r"weierstrass.g has a pole.*near z = 0.313\+0.217i"),
+    ({"weierstrass": {"g": "log(z + 0.0011)"}}, {}, "weierstrass.g has a pole, a jump"),
     ({"formula": "x*y"}, {"creases": 1}, "pattern.creases.*from 2 to 200"),
     ({"formula": "x*y"}, {"hub_size": 2.0, "reach": 1.0}, "give a smaller hub_size"),
     ({"formula": "x*y"}, {"width": 1.0, "amplitude": 50.0}, "about half the width"),
@@ -153,3 +241,21 @@ def test_mistakes_are_answered_in_a_sentence(surface, pattern, sentence):
 def test_a_missing_mesh_is_one_sentence():
     with pytest.raises(InvalidMesh, match="there is no mesh file"):
         made({"kind": "asymptotic", "file": "nowhere.obj"})
+
+
+def test_creases_beside_a_hole_are_not_kinked():
+    result = made({**MONKEY, "hub": "cut"}, columns=64)
+    assert result.report.status == "exact", result.report.reasons
+    turns = []
+    for crease in result.structure.topology.creases:
+        sides = np.diff(result.structure.vertices[crease.vertices], axis=0)
+        sines, cosines = np.linalg.norm(np.cross(sides[1:], sides[:-1]), axis=1), (sides[1:] * sides[:-1]).sum(axis=1)
+        turns.append(np.arctan2(sines, cosines))
+    assert np.degrees(np.concatenate(turns).max()) < 8  # where columns are twice as far apart; 60 without smoothing
+
+
+def test_the_report_says_why_creases_end_before_the_boundary(monkey):
+    result = made({"kind": "asymptotic", "formula": "x**3 - y**2", "x": [-0.5, 1]}, creases=6, columns=12)
+    assert any(re.fullmatch(r"creases end: \d+ at the boundary, \d+ at a parabolic curve", note)
+               for note in result.report.warnings)
+    assert not any("creases end" in note for note in monkey.report.warnings)

@@ -1,10 +1,14 @@
 """Noise is smoothed away, shapes are not."""
 
 import numpy as np
+import pytest
 from scipy.spatial import Delaunay
 
+from plisse.errors import Infeasible
 from plisse.geometry.denoised import SMOOTHINGS, denoised_graph
+from plisse.geometry.graph import GraphSurface, facing_up
 from plisse.geometry.mesh import ReferenceMesh
+from plisse.geometry.thinned import thinned
 
 
 def scattered(noise, count=350):
@@ -41,3 +45,30 @@ def test_second_derivatives_are_nearer_to_the_truth_than_without_smoothing():
 
 def test_a_smoothing_that_is_asked_for_is_taken():
     assert denoised_graph(scattered(0.0), 2.5).smoothing == 2.5
+
+
+def test_large_meshes_are_thinned_to_means_that_lie_nearer_to_the_truth_than_their_vertices():
+    mesh = scattered(2e-3, count=27_000)
+    thin = thinned(mesh)
+    assert 4500 < len(thin.vertices) < 6500
+    assert len(thin.vertices) - len(thin.edges) + len(thin.triangles) == 1
+    assert thin.area == pytest.approx(mesh.area, rel=0.3)  # noise makes faces steep, and the rim loses half a cell
+    assert (thin.face_vectors[:, 2] > 0).all()
+
+    def miss(points):
+        x, y, z = points.T
+        return np.sqrt(np.mean((z - 0.2 * np.sin(2 * x) * np.cos(1.5 * y)) ** 2))
+
+    assert miss(thin.vertices) < 0.85 * miss(mesh.vertices)
+
+
+def test_single_faces_that_lean_over_do_not_keep_a_noisy_mesh_from_being_smoothed():
+    mesh = scattered(0.0)
+    vertices = mesh.vertices.copy()
+    vertices[mesh.triangles[7, 0], :2] += 2.2 * (vertices[mesh.triangles[7, 1:]].mean(axis=0)
+                                               - vertices[mesh.triangles[7, 0]])[:2]
+    leaning = ReferenceMesh(vertices, mesh.triangles)
+    assert 0.99 < facing_up(leaning) < 0.9999
+    with pytest.raises(Infeasible, match="give a flatter part of it"):
+        GraphSurface(leaning)
+    assert denoised_graph(leaning).smoothing in SMOOTHINGS

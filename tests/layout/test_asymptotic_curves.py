@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 
-from plisse.geometry.chart import ChartPoints, FormulaChart
+from plisse.geometry.chart import FormulaChart
 from plisse.geometry.height_field import HeightField
 from plisse.geometry.vectors import dot
 from plisse.geometry.weierstrass import MinimalSurface
 from plisse.layout.asymptotic.curves import Limits, trace_both_ways, trace_leaves
 from plisse.layout.asymptotic.directions import Directions
-from plisse.layout.asymptotic.singularities import radial_directions, singularities
 from plisse.layout.stops import Stop
 
 MONKEY = MinimalSurface("z**2", "1")
@@ -27,7 +26,7 @@ def test_traced_curves_converge_to_exact_ones_with_fourth_order(family):
     errors, steps = [], 0.1 / 2 ** np.arange(4)
     for step in steps:
         leaf = trace_both_ways(Directions(MONKEY, family), np.array([0.5 + 0.3j]), "creases", Limits(0.8, step))[0]
-        ends = straightened(leaf.places[::8])  # the steps themselves, not the cubics between them
+        ends = straightened(leaf.steps.nodes)
         errors.append(min(np.ptp(ends.real), np.ptp(ends.imag)))
     assert np.polyfit(np.log(steps), np.log(errors), 1)[0] > 3.7
     assert errors[-1] < 1e-7
@@ -37,7 +36,6 @@ def test_families_are_orthogonal_on_minimal_surfaces_and_never_mix():
     one, two = (trace_both_ways(Directions(MONKEY, family), np.array([0.3 + 0.1j]), "creases", Limits(3, 0.02))[0]
                 for family in (1, 2))
     first, second = straightened(one.places), straightened(two.places)
-    # cubics between the steps are of fourth order as well
     assert min(np.ptp(first.real), np.ptp(first.imag)) < 1e-6
     assert min(np.ptp(second.real), np.ptp(second.imag)) < 1e-6
     assert (np.ptp(first.real) < 1e-6) != (np.ptp(second.real) < 1e-6)
@@ -92,41 +90,3 @@ def test_curves_end_at_parabolic_curves_unless_a_patch_is_allowed():
     assert stopped.stop is Stop.PARABOLIC
     assert 0 < stopped.places[-1].real < 0.03
     assert through.places.real.min() < -0.05
-
-
-def test_curves_end_at_singularities():
-    hub = singularities(SADDLE)[0]
-    directions = Directions(SADDLE, 1)
-    outward = radial_directions(directions, hub, 1e-3, "creases")[0]
-    limits = Limits(2, 0.02, hubs=(hub.place,), near=0.05)
-    leaf = trace_leaves(directions, [hub.place + 0.5 * outward], [-outward], "creases", limits)[0]
-    assert leaf.stop is Stop.SINGULARITY
-    assert abs(leaf.places[-1] - hub.place) < 0.08
-
-
-class Rings:
-    """A chart whose first family runs in circles around the origin; no surface needs to exist for that."""
-
-    domain = (-2 - 2j, 2 + 2j)
-
-    def positions(self, places):
-        return np.column_stack([places.real, places.imag, 0 * places.real])
-
-    def at(self, places):
-        turn = np.exp(2j * np.angle(1j * places))  # one family along the circles, the other one across
-        second = np.stack([turn.imag, -turn.real, -turn.imag])
-        one, zero = np.ones(len(places)), np.zeros(len(places))
-        partials = np.stack([np.column_stack([one, zero, zero]), np.column_stack([zero, one, zero])])
-        return ChartPoints(partials, np.column_stack([zero, zero, one]), second)
-
-    def inside(self, places):
-        return np.abs(places) < 2
-
-
-def test_closed_curves_close():
-    leaves = [trace_both_ways(Directions(Rings(), family), np.array([1 + 0j]), "creases", Limits(20, 0.05))[0]
-              for family in (1, 2)]
-    closed = [leaf for leaf in leaves if leaf.stop is Stop.CLOSED]
-    assert len(closed) == 1
-    np.testing.assert_allclose(np.abs(closed[0].places), 1, atol=1e-6)
-    assert np.abs(np.diff(closed[0].places)).sum() == pytest.approx(2 * np.pi, abs=0.05)

@@ -10,8 +10,9 @@ from plisse.geometry.vectors import norm
 from plisse.geometry.weierstrass import MinimalSurface
 from plisse.layout.asymptotic.feasibility import refuse_crowded_hubs, refuse_positive_curvature, refuse_twist
 from plisse.layout.asymptotic.labels import propagated
-from plisse.layout.asymptotic.pattern import Sizes, lay_out
+from plisse.layout.asymptotic.pattern import lay_out
 from plisse.layout.asymptotic.rays import crossings
+from plisse.layout.asymptotic.sizing import Sizes
 
 
 def around(sectors, creases=4, columns=6, **sizes):

@@ -54,3 +54,17 @@ def test_separatrices_leave_at_equal_angles_with_bisectors_between(order, family
     np.testing.assert_allclose(np.diff(legs), 2 * np.pi / hub.sectors, atol=1e-4)  # interpolated between samples
     gap = (bisectors[:, None] - legs) % (2 * np.pi / hub.sectors)
     np.testing.assert_allclose(gap, np.pi / hub.sectors, atol=1e-4)
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_places_are_found_to_the_same_share_of_the_domain_in_every_unit(scale):
+    chart = MinimalSurface(f"(z/{scale} - 0.3)**2", "1", (-0.9 * scale, scale), (-scale, 0.8 * scale))
+    found, = singularities(chart)
+    assert abs(found.place / scale - 0.3) < 1e-11
+
+
+def test_singularities_within_two_cells_are_taken_together_in_their_middle():
+    found, = singularities(MinimalSurface("z**3/3 - 1e-6*z", "1", (-0.5, 0.5), (-0.5, 0.5)))
+    assert found.index == -1
+    assert abs(found.place) < 1e-9
+    np.testing.assert_allclose(sorted(other.real for other in found.others), [-1e-3, 1e-3], rtol=1e-6)

@@ -7,7 +7,8 @@ from plisse.geometry.chart import FormulaChart
 from plisse.geometry.height_field import HeightField
 from plisse.geometry.vectors import dot, norm
 from plisse.geometry.weierstrass import MinimalSurface
-from plisse.layout.asymptotic.pattern import Sizes, lay_out
+from plisse.layout.asymptotic.pattern import lay_out
+from plisse.layout.asymptotic.sizing import Sizes
 from plisse.leastsquares.problem import Problem
 from plisse.measure.folds import assignments
 from plisse.solve.energies.amplitude import kept_amplitude

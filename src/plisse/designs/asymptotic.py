@@ -6,26 +6,29 @@ import msgspec
 import numpy as np
 
 from plisse.assess import assess, overlap_notes, spread
+from plisse.designs.asymptotic_surface import charted_surface
 from plisse.designs.outcomes import broken_down
 from plisse.designs.reconstruction import deviation_of
 from plisse.errors import Infeasible
-from plisse.geometry.chart import Chart, FormulaChart, GraphChart
-from plisse.geometry.denoised import denoised_graph
-from plisse.geometry.height_field import HeightField
+from plisse.geometry.chart import Chart
 from plisse.geometry.mesh import ReferenceMesh
 from plisse.geometry.surface import Surface
 from plisse.geometry.vectors import dot, norm, unit
-from plisse.geometry.weierstrass import MinimalSurface
-from plisse.io.meshes import read_mesh
 from plisse.layout.asymptotic.feasibility import (
     refuse_crowded_hubs,
     refuse_domes,
+    refuse_few_columns,
     refuse_positive_curvature,
     refuse_twist,
+    refuse_uneven_charts,
+    refuse_unlike_amplitude,
+    share_without_curves,
 )
-from plisse.layout.asymptotic.pattern import AsymptoticLayout, Sizes, lay_out
+from plisse.layout.asymptotic.pattern import AsymptoticLayout, lay_out
+from plisse.layout.asymptotic.sizing import Sizes
+from plisse.layout.stops import Stop
 from plisse.measure.mid_surface import mid_surface_deviation
-from plisse.recipe import AsymptoticDesign, AsymptoticSurface
+from plisse.recipe import AsymptoticDesign
 from plisse.result import Report, Result
 from plisse.solve.cutting import best_cut
 from plisse.solve.flatten import flatten
@@ -39,7 +42,8 @@ __all__ = ["along_asymptotic_curves"]
 
 MOST_TWIST = 8.0, 4.0  # τ/κ beside the legs of singularities, and where that fails
 COARSE = 12  # columns along a leg with which a structure is sought
-CELLS = 60  # of the mesh that stands for a formula
+LITTLE = 0.3  # of the surface, under a structure
+ENDS = {Stop.BOUNDARY: "at the boundary", Stop.PARABOLIC: "at a parabolic curve", Stop.LENGTH: "at their greatest length"}
 TALLEST = 10.0  # amplitudes: pleats over higher surfaces seldom become exact
 
 
@@ -50,16 +54,18 @@ def along_asymptotic_curves(recipe: AsymptoticDesign, watch: Stopwatch, workspac
     sizes = Sizes(pattern.creases, round(pattern.columns / 2**rounds), pattern.width, pattern.reach, pattern.hub_size)
     watch.start("surface", 0.0)
     try:
-        chart, mesh, surface = _surface(recipe.surface)
+        chart, mesh, surface = charted_surface(recipe.surface)
         watch.start("layout", 0.05)
         whole = _laid_out(chart, recipe, sizes)
         amplitude = 0.5 * whole.width if pattern.amplitude is None else pattern.amplitude
-        layout = whole.cut_along_legs(MOST_TWIST[0])
+        refuse_unlike_amplitude(whole, amplitude)
+        layout = _cut(whole, MOST_TWIST[0])
         refuse_twist(layout, amplitude)
         watch.start("solve", 0.3)
         found, tried = _solved(whole, layout, amplitude, workspace)
     except Infeasible as error:
         return broken_down(recipe, [str(error)], watch)
+    cut = len(whole.net.columns) - len(found.layout.net.columns)
     found, done = _refined(found, rounds, workspace, watch) if found.is_sound else (found, 0)
     watch.start("flatten", 0.7)
     structure = PleatedStructure(found.zigzag.topology, found.solved.vertices)
@@ -67,35 +73,32 @@ def along_asymptotic_curves(recipe: AsymptoticDesign, watch: Stopwatch, workspac
     watch.start("measure", 0.85)
     report = assess(structure, units=recipe.units)
     reasons = [*report.reasons, *_unfinished(found, amplitude)]
-    notes = [f"the columns were doubled {done} of {rounds} times: with more the structure is not regular any more"] \
+    notes = [f"{cut} of {len(whole.net.columns)} columns were left out, where creases beside the legs hardly bend"] if cut \
+        else []
+    notes += [f"the columns were doubled {done} of {rounds} times: with more the structure is not regular any more"] \
         if found.is_sound and done < rounds else []
     report = msgspec.structs.replace(
         report, status=report.status if reasons == report.reasons else "approximate", reasons=reasons, method=found.way.name,
         iterations=found.solved.iterations, tried=tried, crease_deviation=_astray(found, amplitude), seconds=watch.stop(),
-        design=recipe.to_dict(), warnings=[*_about(found), *notes, *overlap_notes(report)])
+        design=recipe.to_dict(), warnings=[*_about(found), *notes, *_ends(found), *_left_out(chart), *overlap_notes(report)])
     return Result(recipe, _over(report, found, structure, mesh, surface, amplitude), structure=structure)
-
-
-def _surface(section: AsymptoticSurface) -> tuple[Chart, ReferenceMesh | None, Surface | None]:
-    """The chart of a surface section, and the mesh and surface that deviations are measured from, where there are any."""
-    if section.weierstrass is not None:
-        return MinimalSurface(section.weierstrass.g, section.weierstrass.f, section.x, section.y), None, None
-    if section.formula is not None:
-        field = HeightField(section.formula, section.x, section.y)
-        return FormulaChart(field), field.mesh(CELLS), field
-    assert section.file is not None
-    mesh = read_mesh(section.file)
-    graph = denoised_graph(mesh, section.smoothing)
-    return GraphChart(graph), mesh, graph
 
 
 def _laid_out(chart: Chart, recipe: AsymptoticDesign, sizes: Sizes) -> AsymptoticLayout:
     """The layout before its legs are cut; without its polygons where they are left out."""
+    refuse_uneven_charts(chart)
     refuse_positive_curvature(chart)
     layout = lay_out(chart, recipe.surface.family, sizes)
     refuse_crowded_hubs(layout)
     refuse_domes(layout)
     return replace(layout, hubs_cut=recipe.surface.hub == "cut")
+
+
+def _cut(whole: AsymptoticLayout, most_twist: float) -> AsymptoticLayout:
+    """The layout with its legs cut; raises Infeasible where nothing that folds is left."""
+    layout = whole.cut_along_legs(most_twist)
+    refuse_few_columns(layout, len(whole.net.columns))
+    return layout
 
 
 def _solved(whole: AsymptoticLayout, layout: AsymptoticLayout, amplitude: float,
@@ -105,7 +108,7 @@ def _solved(whole: AsymptoticLayout, layout: AsymptoticLayout, amplitude: float,
     if found.is_sound:
         return found, tried
     try:
-        shorter = whole.cut_along_legs(MOST_TWIST[1])
+        shorter = _cut(whole, MOST_TWIST[1])
     except Infeasible:
         return found, tried
     if len(shorter.net.columns) == len(layout.net.columns):
@@ -162,16 +165,38 @@ def _about(found: Raised) -> list[str]:
     layout = found.layout
     points = layout.chart.positions(np.array([hub.place for hub in layout.hubs], complex))
     points[np.abs(points) < 1e-6 * layout.width] = 0.0
-    return [f"a singularity of index {hub.index:g} at ({', '.join(f'{x:.4g}' for x in point)}), {hub.sectors} sectors"
-            for hub, point in zip(layout.hubs, points, strict=True)]
+    notes = [f"a singularity of index {hub.index:g} at ({', '.join(f'{x:.4g}' for x in point)}), {hub.sectors} sectors"
+             + f", for {len(hub.others)} of them that are too close to be told apart" * bool(hub.others)
+             for hub, point in zip(layout.hubs, points, strict=True)]
+    if (without := len(layout.hubs) - layout.closed_hubs):
+        notes.append(f"{without} of these, too near to the boundary for creases in all sectors, without a polygon")
+    return notes
 
 
-def _over(report: Report, found: Raised, structure: PleatedStructure, mesh: ReferenceMesh | None, surface: Surface | None,
+def _ends(found: Raised) -> list[str]:
+    """Why the creases of a pattern end, where not all of them reach the boundary of the surface."""
+    net = found.layout.net
+    used = [net.creases[number] for number in np.unique(net.crease)]
+    stops = [stop for leaf in used for stop in (leaf.first_stop, leaf.stop)]
+    counts = [f"{stops.count(stop)} {where}" for stop, where in ENDS.items() if stop in stops]
+    return [] if set(stops) == {Stop.BOUNDARY} else [f"creases end: {', '.join(counts)}"]
+
+
+def _left_out(chart: Chart) -> list[str]:
+    """Which share of a surface has no asymptotic curves."""
+    share = share_without_curves(chart)
+    return [f"{100 * share:.0f} % of the surface are curved like a dome and left out, for asymptotic curves exist only "
+            "where curvature is negative"] if share > 0.01 else []
+
+
+def _over(report: Report, found: Raised, structure: PleatedStructure, mesh: ReferenceMesh, surface: Surface,
           amplitude: float) -> Report:
-    """The report with coverage and deviation, where there is a mesh to measure them on."""
-    if mesh is None or surface is None:
-        return report
+    """The report with coverage and deviation."""
     under = ReferenceMesh(found.layout.points, triangulated(structure.topology)[0])
     deviation = mid_surface_deviation(surface, structure.vertices, structure.topology.quads)
-    return msgspec.structs.replace(report, coverage=under.area / mesh.area,
+    coverage = under.area / mesh.area
+    few = [f"only {100 * coverage:.2g} % of the surface lie under the structure: a larger pattern.width or more creases "
+           "cover more" + ", and so does a surface with its singularities nearer to the middle" * bool(found.layout.hubs)] \
+        if coverage < LITTLE else []
+    return msgspec.structs.replace(report, coverage=coverage, warnings=[*report.warnings, *few],
                                    deviation=deviation_of(deviation, mesh.diagonal, amplitude))

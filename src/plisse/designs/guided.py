@@ -71,7 +71,7 @@ def _exactly(recipe: SurfaceDesign, start: Start, mesh: ReferenceMesh, surface: 
     structure = flatten(structure, best_cut(structure, recipe.solve.cut))
     watch.start("measure", 0.9)
     report = assess(structure, principal=start.principal, guides=start.guides(start.samples), amplitude=start.amplitude,
-                    units=recipe.units)
+                    units=recipe.units, shape=best.shape, astray=best.astray)
     reasons = report.reasons + (_uneven(start) if start.principal and report.reasons else [])
     report = msgspec.structs.replace(report, reasons=reasons, **way_of(outcome))
     return _over(recipe, start, structure, report, mesh, surface, watch)

@@ -8,6 +8,8 @@ from typing import Protocol
 
 import numpy as np
 
+from plisse.errors import InvalidDesign
+from plisse.geometry.breaks import broken_place
 from plisse.geometry.graph import GraphSurface
 from plisse.geometry.height_field import HeightField
 from plisse.geometry.vectors import dot, unit
@@ -59,9 +61,15 @@ class Chart(Protocol):
 
 @dataclass(frozen=True)
 class FormulaChart:
-    """The graph of a height field over its rectangle."""
+    """The graph of a height field over its rectangle; raises InvalidDesign for heights with a pole or a jump there."""
 
     field: HeightField
+
+    def __post_init__(self):
+        where = broken_place(lambda places: tuple(self.field.derivatives(places.real, places.imag)[:3]), *self.domain)
+        if where is not None:
+            raise InvalidDesign(f"the height {self.field.z[:40]!r} has a pole, a jump or no value near "
+                                f"x = {where.real:.4g}, y = {where.imag:.4g}; give another range of surface.x and surface.y")
 
     @property
     def domain(self) -> tuple[complex, complex]:

@@ -1,7 +1,7 @@
 """Seed curves of every kind a design can name, sampled at equal arc lengths."""
 
 from collections.abc import Callable
-from functools import singledispatch
+from functools import lru_cache, singledispatch
 
 import numpy as np
 
@@ -26,7 +26,8 @@ def seed_curve(curve, count: int) -> np.ndarray:
 
 def seed_sampler(curve) -> Callable[[int], np.ndarray]:
     """`seed_curve` of one curve for any count."""
-    evenly = even_sampler(control_points(curve), curve.closed)
+    points = np.ascontiguousarray(control_points(curve), dtype=float)
+    evenly = _sampler(points.tobytes(), points.shape, curve.closed)
 
     def sampled(count: int) -> np.ndarray:
         points = evenly(count)
@@ -37,6 +38,12 @@ def seed_sampler(curve) -> Callable[[int], np.ndarray]:
         return points
 
     return sampled
+
+
+@lru_cache(maxsize=4)
+def _sampler(points: bytes, shape: tuple[int, ...], closed: bool) -> Callable[[int], np.ndarray]:
+    """The last few curves are kept: who changes an angle or a width leaves the curve as it is."""
+    return even_sampler(np.frombuffer(points).reshape(shape), closed)
 
 
 @singledispatch

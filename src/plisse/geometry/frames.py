@@ -86,8 +86,8 @@ def _with_ends(bent: np.ndarray, along: np.ndarray, first: np.ndarray, last: np.
     count = along.shape[1] + 2
     vectors, tangent = np.zeros((3, count)), np.empty((3, count))
     vectors[:, 1:-1], tangent[:, 1:-1] = bent, along
-    edge, inner = np.stack([first, last], axis=1), along[:, [0, -1]]
-    tangent[:, [0, -1]] = 2 * components.dot(inner, edge) / components.dot(edge, edge) * edge - inner
+    edge, inner = np.stack([first, last], axis=1), along[:, ::max(count - 3, 1)]
+    tangent[:, ::count - 1] = 2 * components.dot(inner, edge) / components.dot(edge, edge) * edge - inner
     return vectors, tangent
 
 

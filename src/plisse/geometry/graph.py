@@ -32,19 +32,22 @@ class GraphSurface:
     It minimises Σ |z − z_k|² + λ ∫ |∂³z|² + |∂²z|² / L², with λ such that waves shorter than 2π · `smoothing` edge
     lengths vanish. Beyond the boundary curvature dies away over the length L, `decay` diagonals, as in a thin plate;
     with the plate's energy alone it would vanish at the boundary already. The continuation is `margin` diagonals
-    wide; after that the surface runs on straight. Raises Infeasible where the mesh is no graph.
+    wide; after that the surface runs on straight. Raises Infeasible where the mesh is no graph: where more than the share
+    `steep` of it faces away from the mean plane.
     """
 
     mesh: ReferenceMesh
     margin: float = 0.15
     smoothing: float = 0.4
     decay: float = 0.2
+    steep: float = 1e-4
 
     def __post_init__(self):
         share = facing_up(self.mesh)
-        if share < 0.9999:
-            raise Infeasible(f"{100 * (1 - share):.2g} % of the surface faces away from its mean plane, so it is no "
-                             "graph over it")
+        if share < 1 - self.steep:
+            raise Infeasible(f"{100 * (1 - share):.2g} % of the surface faces away from its mean plane (limit "
+                             f"{100 * self.steep:g} %), so it is no graph over it; give a flatter part of it, or a mesh "
+                             "with less noise")
 
     @property
     def diagonal(self) -> float:

@@ -6,28 +6,28 @@ index −m/2: what traced curves and located singularities are measured against.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
 from plisse.errors import InvalidDesign
+from plisse.geometry.breaks import broken_place
 from plisse.geometry.chart import ChartPoints, in_rectangle
 from plisse.geometry.holomorphic import holomorphic
 
 __all__ = ["MinimalSurface"]
 
 PANELS, NODES = 4, 12
-CHECKED = 41  # places along each side where the data must be defined
 
 Holomorphic = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 @dataclass(frozen=True)
 class MinimalSurface:
-    """The minimal surface of meromorphic g and holomorphic f, expressions in z = x + iy over the rectangle x × y.
+    """The minimal surface of holomorphic g and f, expressions in z = x + iy over the rectangle x × y.
 
-    The middle of the rectangle lies in the origin. Raises InvalidDesign for expressions that cannot be read or are not
-    defined in the rectangle.
+    The middle of the rectangle lies in the origin. Raises InvalidDesign for expressions that cannot be read or have
+    poles or branch cuts in the rectangle.
     """
 
     g: str
@@ -36,14 +36,12 @@ class MinimalSurface:
     y: tuple[float, float] = (-1.0, 1.0)
 
     def __post_init__(self):
-        low, high = self.domain
-        u, v = np.meshgrid(np.linspace(low.real, high.real, CHECKED), np.linspace(low.imag, high.imag, CHECKED))
-        places = (u + 1j * v).ravel()
         for name, function in (("g", self._g), ("f", self._f)):
-            if not (fine := np.isfinite(function(places)[0])).all():
-                where = places[np.argmin(fine)]
-                raise InvalidDesign(f"surface.weierstrass.{name} is not defined at z = {where.real:.4g}{where.imag:+.4g}i; "
-                                    "give a function without poles there, or another range of surface.x and surface.y")
+            where = broken_place(partial(_partials, function), *self.domain)
+            if where is not None:
+                raise InvalidDesign(f"surface.weierstrass.{name} has a pole, a jump or no value near "
+                                    f"z = {where.real:.4g}{where.imag:+.4g}i; give a function without poles and branch cuts "
+                                    "there, or another range of surface.x and surface.y")
 
     @property
     def domain(self) -> tuple[complex, complex]:
@@ -81,6 +79,13 @@ class MinimalSurface:
     @cached_property
     def _g(self) -> Holomorphic:
         return holomorphic(self.g, "surface.weierstrass.g")
+
+
+def _partials(function: Holomorphic, places: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Value and partial derivatives by x and y (N,) of a function of z = x + iy."""
+    value, derivative = function(places)
+    return value, derivative, 1j * derivative
+
 
 def _integrand(f: np.ndarray, g: np.ndarray) -> np.ndarray:
     """dX/dz (N, 3): twice the derivative of X by z."""

@@ -8,6 +8,7 @@ __all__ = ["check_asymptotic_design"]
 
 MAX_FACES = 250_000
 WIDEST = 4  # creases side by side, for each crease of a sector
+SLIMMEST = 100  # times as long as wide
 KINDS = ("file", "formula", "weierstrass")
 
 
@@ -22,6 +23,10 @@ def check_asymptotic_design(design: AsymptoticDesign) -> AsymptoticDesign:
     for name, (low, high) in (("x", surface.x), ("y", surface.y)):
         if not low < high:
             raise InvalidDesign(f"surface.{name} is [{low:g}, {high:g}]; give two rising numbers")
+    sides = sorted((surface.x[1] - surface.x[0], surface.y[1] - surface.y[0]))
+    if surface.file is None and sides[1] > SLIMMEST * sides[0]:
+        raise InvalidDesign(f"the range of surface.x and surface.y is a strip {sides[0]:.3g} wide and {sides[1]:.3g} long "
+                            f"(limit 1 : {SLIMMEST}); give ranges more alike")
     if surface.smoothing is not None and surface.file is None:
         raise InvalidDesign(f"surface.smoothing is for a mesh file, and {given[0]} is exact; remove it")
     if pattern.creases * pattern.columns * 6 > MAX_FACES:

@@ -16,7 +16,6 @@ class Stop(Enum):
     CURLED_UP = "curled up"
     CLOSED = "closed on itself"
     PARABOLIC = "reached a parabolic curve, beyond which the surface has no asymptotic directions"
-    SINGULARITY = "ran into a singularity, where asymptotic directions are not determined"
     LEFT_CHART = "left the chart: no surface could be found near the next point"
 
     def __str__(self) -> str:

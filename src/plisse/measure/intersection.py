@@ -31,18 +31,16 @@ def intersecting_faces(topology: Topology, vertices: np.ndarray) -> np.ndarray:
 
 def _box_pairs(topology: Topology, vertices: np.ndarray) -> np.ndarray:
     """Pairs of faces whose bounding boxes meet and that have no common vertex."""
-    corners = topology.corners
-    low = np.full((topology.face_count, 3), np.inf)
-    high = np.full((topology.face_count, 3), -np.inf)
-    np.minimum.at(low, corners.face, vertices[corners.vertex])
-    np.maximum.at(high, corners.face, vertices[corners.vertex])
+    faces = _padded_faces(topology)
+    columns = [vertices[column] for column in faces.T]
+    low, high = np.minimum.reduce(columns), np.maximum.reduce(columns)
     flat, third = _flattest_axis(vertices)
     boxes = shapely.box(low[:, flat[0]], low[:, flat[1]], high[:, flat[0]], high[:, flat[1]])
     a, b = shapely.STRtree(boxes).query(boxes)
     keep = (a < b) & (low[a, third] <= high[b, third]) & (low[b, third] <= high[a, third])
     a, b = a[keep], b[keep]
-    quads = _padded_faces(topology)
-    touching = (quads[a][:, :, None] == quads[b][:, None, :]).any(axis=(1, 2))
+    one, other = faces[a], faces[b]
+    touching = np.logical_or.reduce([one[:, i] == other[:, j] for i, j in np.ndindex(faces.shape[1], faces.shape[1])])
     return np.stack([a[~touching], b[~touching]], axis=1)
 
 

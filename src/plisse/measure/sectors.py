@@ -15,16 +15,23 @@ def sector_angles(topology: Topology, vertices: np.ndarray) -> np.ndarray:
     return angle_between(vertices[corners.next] - origin, vertices[corners.previous] - origin)
 
 
-def angle_defect(topology: Topology, vertices: np.ndarray) -> np.ndarray:
-    """Σω − 2π per vertex (V,), 0 on boundary and seams: w_angle of Fig. 21, zero when developable (2)."""
-    sums = np.bincount(topology.corners.vertex, sector_angles(topology, vertices), topology.vertex_count)
+def angle_defect(topology: Topology, vertices: np.ndarray, sectors: np.ndarray | None = None) -> np.ndarray:
+    """Σω − 2π per vertex (V,), 0 on boundary and seams: w_angle of Fig. 21, zero when developable (2).
+
+    `sectors` are the sector angles where they are known already.
+    """
+    angles = sector_angles(topology, vertices) if sectors is None else sectors
+    sums = np.bincount(topology.corners.vertex, angles, topology.vertex_count)
     return np.where(topology.is_inner, sums - 2 * np.pi, 0.0)
 
 
-def principal_defect(topology: Topology, vertices: np.ndarray) -> np.ndarray:
-    """Largest of |ω1+ω3−π| and |ω2+ω4−π| per vertex (V,), 0 on the boundary and off 4-valent vertices (4)."""
+def principal_defect(topology: Topology, vertices: np.ndarray, sectors: np.ndarray | None = None) -> np.ndarray:
+    """Largest of |ω1+ω3−π| and |ω2+ω4−π| per vertex (V,), 0 on the boundary and off 4-valent vertices (4).
+
+    `sectors` are the sector angles where they are known already.
+    """
     defect = np.zeros(topology.vertex_count)
-    angles = sector_angles(topology, vertices)
+    angles = sector_angles(topology, vertices) if sectors is None else sectors
     walk = topology.star_corners.get(4)
     if walk is not None:
         ring = angles[walk]

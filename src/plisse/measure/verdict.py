@@ -4,10 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plisse.measure.planarity import planarity_defect
-from plisse.measure.regularity import Regularity, regularity
-from plisse.measure.sectors import angle_defect, principal_defect
-from plisse.structure.topology import Topology
+from plisse.measure.regularity import Regularity
+from plisse.measure.shape import Shape
 
 __all__ = ["EXACT", "FAR", "Verdict", "judge"]
 
@@ -50,12 +48,12 @@ class Verdict:
                 self.is_comfortable, sector if self.is_exact else -defect, -self.deviation)
 
 
-def judge(topology: Topology, vertices: np.ndarray, *, principal: bool, deviation: float) -> Verdict:
-    """Verdict on vertices (V, 3); the principal defect counts only where it is asked for."""
+def judge(shape: Shape, *, principal: bool, deviation: float) -> Verdict:
+    """Verdict on a shape; the principal defect counts only where it is asked for."""
     return Verdict(
-        float(planarity_defect(topology, vertices).max()),
-        float(np.abs(angle_defect(topology, vertices)).max()),
-        float(principal_defect(topology, vertices).max()) if principal else 0.0,
-        regularity(topology, vertices),
+        float(shape.planarity.max()),
+        float(np.abs(shape.angle).max()),
+        float(shape.principal.max()) if principal else 0.0,
+        shape.regularity,
         deviation,
     )

@@ -9,10 +9,9 @@ from functools import cached_property
 
 import numpy as np
 
-from plisse.geometry.frames import curvature, regularised_frame, torsion
-from plisse.geometry.polyline import arc_length
+from plisse.geometry.frames import curvature, torsion
+from plisse.geometry.polyline import arc_length, tangents
 from plisse.geometry.vectors import angle_between, dot, norm
-from plisse.layout.evolve import default_smoothing
 from plisse.solve.zigzag import zigzag_curves
 from plisse.structure.pattern import Pattern
 
@@ -111,10 +110,9 @@ def forecast(pattern: Pattern, amplitude: float, principal: bool = False) -> For
 
 def _half_openings(creases: np.ndarray, closed: bool) -> np.ndarray:
     """Half the angle (m−2, n) between the directions to both neighbours, seen along the crease."""
-    smooth = [regularised_frame(curve, closed, default_smoothing(curve, closed) * arc_length(curve, closed)[-1]).tangent
-              for curve in creases[1:-1]]
     out = []
-    for before, here, after, tangent in zip(creases[:-2], creases[1:-1], creases[2:], smooth, strict=True):
+    for before, here, after in zip(creases[:-2], creases[1:-1], creases[2:], strict=True):
+        tangent = tangents(here, closed)
         back, ahead = (d - dot(d, tangent)[:, None] * tangent for d in (before - here, after - here))
         out.append(0.5 * angle_between(back, ahead))
     return np.array(out)

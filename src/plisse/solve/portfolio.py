@@ -3,7 +3,10 @@
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
+import numpy as np
+
 from plisse.measure.deviation import crease_deviation
+from plisse.measure.shape import Shape
 from plisse.measure.verdict import Verdict, judge
 from plisse.solve.attempt import Attempt, Start
 from plisse.solve.coarse_to_fine import CoarseToFine
@@ -31,11 +34,14 @@ GUIDED_PRINCIPAL: tuple[Way, ...] = (GENTLE, STIFF, STIFFER)
 
 @dataclass(frozen=True, eq=False)
 class Judged:
-    """An attempt with the start it was made from and the verdict on it (None where there are no vertices)."""
+    """An attempt with the start it was made from, its shape, how far its vertices (m, n) are from the guides in amplitudes,
+    and the verdict on it; None where there are no vertices."""
 
     start: Start
     attempt: Attempt
-    verdict: Verdict | None
+    shape: Shape | None = None
+    astray: np.ndarray | None = None
+    verdict: Verdict | None = None
 
     @property
     def rank(self) -> tuple:
@@ -73,16 +79,15 @@ def _attempts(plans: Iterable[tuple[Start, tuple[Way, ...]]]) -> Iterator[Judged
         if good:  # other starts are for designs that nothing has solved yet
             return
         for way in ways:
-            attempt = way(start)
-            verdict = _judge(start, attempt)
-            good = good or (verdict is not None and verdict.is_good)
-            yield Judged(start, attempt, verdict)
+            judged = _judged(start, way(start))
+            good = good or (judged.verdict is not None and judged.verdict.is_good)
+            yield judged
 
 
-def _judge(start: Start, attempt: Attempt) -> Verdict | None:
+def _judged(start: Start, attempt: Attempt) -> Judged:
     if attempt.vertices is None:
-        return None
-    guides = start.guides(start.samples)
-    distance = crease_deviation(attempt.vertices.reshape(guides.shape), guides, start.pattern.closed)
-    return judge(start.topology, attempt.vertices, principal=start.principal,
-                 deviation=float(distance.max()) / start.amplitude)
+        return Judged(start, attempt)
+    guides, shape = start.guides(start.samples), Shape(start.topology, attempt.vertices)
+    astray = crease_deviation(attempt.vertices.reshape(guides.shape), guides, start.pattern.closed) / start.amplitude
+    return Judged(start, attempt, shape, astray,
+                  judge(shape, principal=start.principal, deviation=float(astray.max())))

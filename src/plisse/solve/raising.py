@@ -9,7 +9,7 @@ from scipy.interpolate import CubicSpline
 from plisse.layout.asymptotic.pattern import AsymptoticLayout
 from plisse.measure.intersection import intersecting_faces
 from plisse.measure.regularity import Regularity, regularity
-from plisse.solve.singular import Hold, Solved, Zigzag, polished, relaxed
+from plisse.solve.singular import Hold, Solved, Zigzag, polished, relaxed, smoothed
 from plisse.solve.workspace import Workspace
 
 __all__ = ["Raised", "Way", "finer", "raised", "zigzag_over"]
@@ -128,14 +128,22 @@ def _by(way: Way, layout: AsymptoticLayout, amplitude: float, workspace: Workspa
 def finer(found: Raised, layout: AsymptoticLayout, workspace: Workspace) -> Raised | None:
     """The same structure with the columns of a finer layout, or None where it does not stay sound.
 
-    Displacements are interpolated along the creases and only polished: relaxing again would destroy them. Raises
+    Displacements are interpolated along the creases and polished. Beside holes, where nothing holds the creases,
+    minimum-norm steps would kink them along a ruling polyline: there displacements are made smooth first. Raises
     Infeasible where the finer layout has no labels.
     """
     zigzag = _relabelled(zigzag_over(layout, float(found.zigzag.amplitude.max()), found.way.taper), layout, found)
     moved = zigzag.vertices + _along_creases(found, layout)
-    after = replace(found, layout=layout, zigzag=zigzag,
-                    solved=polished(zigzag, moved, workspace, found.solved.iterations, chord=True))
-    return after if after.is_sound else None
+    for start in ((smoothed, _as_it_is) if layout.hubs_cut else (_as_it_is,)):
+        solved = polished(zigzag, start(zigzag, moved, workspace), workspace, found.solved.iterations, chord=True)
+        after = replace(found, layout=layout, zigzag=zigzag, solved=solved)
+        if after.is_sound:
+            return after
+    return None
+
+
+def _as_it_is(zigzag: Zigzag, vertices: np.ndarray, workspace: Workspace) -> np.ndarray:
+    return vertices
 
 
 def _relabelled(zigzag: Zigzag, layout: AsymptoticLayout, found: Raised) -> Zigzag:
@@ -156,5 +164,6 @@ def _along_creases(found: Raised, layout: AsymptoticLayout) -> np.ndarray:
         on = on[np.argsort(before.along[on])]
         at = np.flatnonzero(after.crease == crease)
         along = np.clip(after.along[at], before.along[on[0]], before.along[on[-1]])
-        out[at] = CubicSpline(before.along[on], displacement[on])(along) if len(on) >= BEFORE else displacement[on].mean(axis=0)
+        out[at] = CubicSpline(before.along[on], displacement[on])(along) if len(on) >= BEFORE \
+            else displacement[on].mean(axis=0)
     return out

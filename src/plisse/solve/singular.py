@@ -14,15 +14,18 @@ from plisse.leastsquares.differences import second_difference
 from plisse.leastsquares.kernel import Rows, Term
 from plisse.measure.folds import fold_angles
 from plisse.solve.anneal import anneal
+from plisse.solve.energies import displacement_fairness
 from plisse.solve.energies.amplitude import kept_amplitude
 from plisse.solve.polish import polish
 from plisse.solve.workspace import Workspace
 from plisse.structure.topology import Topology
 
-__all__ = ["Hold", "Solved", "Zigzag", "polished", "relaxed"]
+__all__ = ["Hold", "Solved", "Zigzag", "polished", "relaxed", "smoothed"]
 
 WEIGHTS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5)
 POLISH_STEPS = 20
+SMOOTHING = (1e-1, 1e-2, 1e-3, 1e-4)
+HELD = 0.03  # closeness to what is smoothed
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,6 +100,17 @@ def relaxed(zigzag: Zigzag, displacement: np.ndarray, hold: Hold, workspace: Wor
         return polished(zigzag, found.T * scale, workspace, hold.steps * len(weights))
     except NotPositiveDefinite:
         return Solved(zigzag.vertices, np.inf, 0)
+
+
+def smoothed(zigzag: Zigzag, vertices: np.ndarray, workspace: Workspace) -> np.ndarray:
+    """Vertices (V, 3) near given ones and nearly exact, whose displacement from the zigzag is smooth along creases."""
+    start, rest = (np.ascontiguousarray(points.T / zigzag.unit) for points in (vertices, zigzag.vertices))
+    near = displacement_fairness(zigzag.topology, start, along=0.0, same_side=0.0, closeness=HELD)
+    try:
+        return anneal(zigzag.topology, start, rest=rest, weights=SMOOTHING, extra=near, workspace=workspace,
+                      fairness={"same_side": 0.0, "closeness": 0.0}).T * zigzag.unit
+    except NotPositiveDefinite:
+        return vertices
 
 
 def polished(zigzag: Zigzag, vertices: np.ndarray, workspace: Workspace, before: int = 0, *,

@@ -51,7 +51,7 @@ def require_principal(structure: PleatedStructure, consequence: str) -> None:
                                f"(limit {EXACT:.0e}), so {consequence}; solve it first")
     for what, defect, remedy in (("exact: angles miss 2π", np.abs(angle_defect(topology, vertices)), "solve it first"),
                                  ("principal: opposite angles miss π", principal_defect(topology, vertices),
-                                  "design it with solve.principal = true")):
+                                  "along a curve or a surface guide, designs with solve.principal = true are")):
         vertex = int(np.argmax(defect))
         if not defect[vertex] <= EXACT:
             raise InvalidStructure(f"the structure is not {what} by {defect[vertex]:.1e} rad (limit {EXACT:.0e}) at vertex "

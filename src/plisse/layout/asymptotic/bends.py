@@ -36,7 +36,7 @@ class Bends:
             back, ahead = leaf.arc[k] - leaf.arc[before], leaf.arc[after] - leaf.arc[k]
             bend = 2 * ((leaf.points[after] - leaf.points[k]) / ahead[:, None]
                         - (leaf.points[k] - leaf.points[before]) / back[:, None]) / (ahead + back)[:, None]
-            curvature[on] = np.stack([np.interp(net.arc[on], leaf.arc[k], column) for column in bend.T], axis=1)
+            curvature[on] = np.stack([np.interp(net.along[on], leaf.plane[k], column) for column in bend.T], axis=1)
         return cls(curvature, np.sqrt(np.maximum(-chart.at(net.places).curvature, 0)))
 
     @cached_property

@@ -9,8 +9,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from plisse.errors import Infeasible
-from plisse.layout.asymptotic.curves import Leaf
-from plisse.layout.asymptotic.rays import as_line
+from plisse.layout.asymptotic.crossings import Crossings
+from plisse.layout.asymptotic.leaf import Leaf
 from plisse.structure.topology import Topology
 
 __all__ = ["Net", "overlay"]
@@ -20,66 +20,56 @@ __all__ = ["Net", "overlay"]
 class Net:
     """Crossings of creases and columns, joined to faces: `places` (V,) in the plane, and on which curves they lie.
 
-    `crease` and `column` (V,) are numbers in `creases` and `columns`; `arc` (V,) is the length in space along the
-    crease, `across` (V,) the length in the plane along the column. `hubs` are the places that polygons surround.
+    `crease` and `column` (V,) are numbers in `creases` and `columns`; `along` (V,) is the length in the plane along
+    the crease. `hubs` are the places that polygons surround. `crossings` are all that there are, also those without faces.
     """
 
-    creases: tuple[Leaf, ...]
-    columns: tuple[Leaf, ...]
+    crossings: Crossings
     hubs: tuple[complex, ...]
     places: np.ndarray
     crease: np.ndarray
     column: np.ndarray
-    arc: np.ndarray
-    across: np.ndarray
+    along: np.ndarray
     topology: Topology
 
+    @property
+    def creases(self) -> tuple[Leaf, ...]:
+        """The creases, also those without faces."""
+        return self.crossings.creases
 
-def overlay(creases: list[Leaf], columns: list[Leaf], hubs: tuple[complex, ...]) -> Net:
+    @property
+    def columns(self) -> tuple[Leaf, ...]:
+        """The columns, also those without faces."""
+        return self.crossings.columns
+
+
+def overlay(crossings: Crossings, hubs: tuple[complex, ...]) -> Net:
     """The net of the largest connected part whose cells have alternating sides: quads, and polygons around `hubs`.
 
     Raises Infeasible where no such cells exist.
     """
-    crease, column, places, on_crease, on_column = _crossings(creases, columns)
-    start, end, is_crease = _segments(crease, column, on_crease, on_column)
+    crease, column, places = crossings.crease, crossings.column, crossings.places
+    start, end, is_crease = _segments(crossings)
     kept = _without_loose_ends(start, end, len(places))
-    corners = _corners(places, start[kept], end[kept], is_crease[kept])
-    quads, polygons = _alternating(places, corners, hubs)
+    quads, polygons = np.empty((0, 4), int), list[np.ndarray]()
+    if kept.any():
+        quads, polygons = _alternating(places, _corners(places, start[kept], end[kept], is_crease[kept]), hubs)
     if not len(quads):
         raise Infeasible("creases and columns do not cross in a single quad; give a smaller width, or more columns")
     quads, polygons = _largest_part(quads, polygons, len(places))
     used = np.unique(np.concatenate([quads.ravel(), *polygons]))
-    used = used[np.lexsort((on_crease[used], crease[used]))]
+    used = used[np.lexsort((crossings.along[used], crease[used]))]
     number = np.full(len(places), -1)
     number[used] = np.arange(len(used))
     topology = Topology(len(used), number[quads], tuple(number[polygon] for polygon in polygons))
-    return Net(tuple(creases), tuple(columns), hubs, places[used], crease[used], column[used], on_crease[used],
-               on_column[used], topology)
+    return Net(crossings, hubs, places[used], crease[used], column[used], crossings.along[used], topology)
 
 
-def _crossings(creases: list[Leaf], columns: list[Leaf]):
-    """Crease, column, place, and lengths along both of every first crossing, as five arrays."""
-    lines, across = np.array([as_line(leaf) for leaf in creases]), np.array([as_line(leaf) for leaf in columns])
-    column, crease = shapely.STRtree(lines).query(across, predicate="intersects")
-    points = shapely.get_coordinates(shapely.centroid(_first_parts(shapely.intersection(lines[crease], across[column]))))
-    at = shapely.points(points)
-    on_crease = shapely.line_locate_point(lines[crease], at)
-    on_column = shapely.line_locate_point(across[column], at)
-    for number, leaf in enumerate(creases):
-        on = crease == number
-        plane = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(leaf.places)))])
-        on_crease[on] = np.interp(on_crease[on], plane, leaf.arc)
-    return crease, column, points[:, 0] + 1j * points[:, 1], on_crease, on_column
-
-
-def _first_parts(geometries: np.ndarray) -> np.ndarray:
-    return np.where(shapely.get_num_geometries(geometries) > 1, shapely.get_geometry(geometries, 0), geometries)
-
-
-def _segments(crease, column, on_crease, on_column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _segments(crossings: Crossings) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Start, end and kind of the edges between successive crossings, in both directions."""
     starts, ends, kinds = [], [], []
-    for owner, along, kind in ((crease, on_crease, True), (column, on_column, False)):
+    for owner, along, kind in ((crossings.crease, crossings.along, True),
+                               (crossings.column, crossings.across, False)):
         order = np.lexsort((along, owner))
         same = owner[order[:-1]] == owner[order[1:]]
         a, b = order[:-1][same], order[1:][same]

@@ -7,45 +7,34 @@ import numpy as np
 
 from plisse.errors import Infeasible
 from plisse.geometry.chart import Chart
+from plisse.layout.asymptotic.beginning import beginning
 from plisse.layout.asymptotic.bends import Bends
-from plisse.layout.asymptotic.curves import Leaf, Limits, trace_both_ways
+from plisse.layout.asymptotic.crossings import Crossings
+from plisse.layout.asymptotic.curves import Limits, trace_both_ways
 from plisse.layout.asymptotic.directions import Directions
 from plisse.layout.asymptotic.labels import Labels, labelled
+from plisse.layout.asymptotic.leaf import Leaf
 from plisse.layout.asymptotic.legs import kept_columns
 from plisse.layout.asymptotic.overlay import Net, overlay
 from plisse.layout.asymptotic.rays import Ray, crossings, rays
 from plisse.layout.asymptotic.singularities import Singularity, singularities
+from plisse.layout.asymptotic.sizing import FIRST_CREASE, Sizes, lengths_around
 from plisse.layout.asymptotic.spacing import Spacing, evenly, spaced
 from plisse.structure.topology import Topology
 
-__all__ = ["AsymptoticLayout", "Sizes", "lay_out", "room_in_the_middle"]
+__all__ = ["AsymptoticLayout", "lay_out"]
 
 STEP = 1 / 50  # of the domain's diagonal
 PATCH = 2.0  # widths through which curves pass without asymptotic directions
 CIRCLE = 1e-3  # of the diagonal, around a singularity
-FIRST_CREASE = 1.5  # widths from a singularity
-
-
-@dataclass(frozen=True)
-class Sizes:
-    """What a layout is asked for: `creases` on every bisector, `width` apart, and `columns` on every leg.
-
-    Without singularity these are all creases and all columns. `hub` is the distance of the first column from a
-    singularity, `reach` that of the last; all lengths in space. What is None follows from the surface.
-    """
-
-    creases: int
-    columns: int
-    width: float | None = None
-    reach: float | None = None
-    hub: float | None = None
+SMALLEST = 2e-5  # of the surface, that creases are apart
 
 
 @dataclass(frozen=True, eq=False)
 class AsymptoticLayout:
     """A net along asymptotic curves with all that it came from; `width` and `hub` as they were used.
 
-    With `hubs_cut` the polygons around singularities are no faces.
+    Around `closed_hubs` of the singularities there is room for a polygon. With `hubs_cut` polygons are no faces.
     """
 
     directions: Directions
@@ -56,6 +45,7 @@ class AsymptoticLayout:
     width: float
     hub: float
     net: Net
+    closed_hubs: int = 0
     hubs_cut: bool = False
 
     @cached_property
@@ -100,7 +90,7 @@ class AsymptoticLayout:
         if not kept.any():
             raise Infeasible("the surface twists too much beside the legs of its singularities, from the first columns on; "
                              "give a flatter surface, or a smaller part of it with a smaller pattern.width")
-        return self._with_columns([leaf for leaf, stays in zip(self.net.columns, kept, strict=True) if stays])
+        return self._over(self.net.crossings.only(kept))
 
     def refined(self) -> "AsymptoticLayout":
         """With a column between any two along the legs, and one more in front of the first where there is room."""
@@ -121,16 +111,16 @@ class AsymptoticLayout:
                 if not ((marks > reached[one]) & (marks < reached[other])).any():
                     middle = 0.5 * (reached[one] + reached[other])
                     gaps.setdefault((min(one, other), max(one, other)), complex(line.place_at(middle)))
-        return self._with_columns(columns + list(trace_both_ways(self.directions, np.array(list(gaps.values())), "columns",
-                                                                 self.limits)))
+        more = trace_both_ways(self.directions, np.array(list(gaps.values())), "columns", self.limits)
+        return self._over(self.net.crossings.with_columns(more))
 
     @cached_property
     def _spine(self) -> Leaf:
         """The crease with most vertices: without legs, columns are counted along it."""
         return self.net.creases[int(np.argmax(np.bincount(self.net.crease)))]
 
-    def _with_columns(self, columns: list[Leaf]) -> "AsymptoticLayout":
-        return replace(self, net=overlay(list(self.net.creases), columns, self.net.hubs))
+    def _over(self, crossings: Crossings) -> "AsymptoticLayout":
+        return replace(self, net=overlay(crossings, self.net.hubs))
 
 
 def lay_out(chart: Chart, family: int, sizes: Sizes) -> AsymptoticLayout:
@@ -147,37 +137,41 @@ def lay_out(chart: Chart, family: int, sizes: Sizes) -> AsymptoticLayout:
 
 def _around_hubs(directions: Directions, hubs: tuple[Singularity, ...], sizes: Sizes, limits: Limits) -> AsymptoticLayout:
     low, high = directions.chart.domain
-    radius = CIRCLE * abs(high - low)
+    radius = max(CIRCLE * abs(high - low), *(2 * hub.spread for hub in hubs))
     legs = rays(directions, hubs, "creases", limits, radius)
     bisectors = rays(directions, hubs, "columns", limits, radius)
-    room = min(ray.leaf.length for ray in bisectors)
-    width = room / (sizes.creases + FIRST_CREASE - 0.5) if sizes.width is None else sizes.width
-    if FIRST_CREASE * width > room:
-        raise Infeasible(f"the first creases, {FIRST_CREASE * width:.3g} from the singularity, leave the surface, which "
-                         f"reaches {room:.3g} from there; give a smaller pattern.width or a larger surface")
+    lengths = lengths_around(hubs, legs, bisectors, sizes)
+    width, hub = lengths.width, lengths.hub
+    _refuse_specks(directions.chart, width)
     limits = replace(limits, patch=PATCH * width)
-    span = (sizes.creases + FIRST_CREASE - 1) * width
-    reach = min(max(ray.leaf.length for ray in legs), 1.2 * span) if sizes.reach is None else sizes.reach
-    hub = max(0.12 * reach, room_in_the_middle(hubs) * width) if sizes.hub is None else sizes.hub
-    gap = (reach - hub) / max(sizes.columns - 1, 1)
-    creases = spaced(directions, "creases", bisectors, legs, Spacing(FIRST_CREASE * width, width, span), limits)
-    columns = spaced(directions, "columns", legs, bisectors, Spacing(hub, gap, reach), limits)
-    net = overlay(creases, columns, tuple(single.place for single in hubs))
-    return AsymptoticLayout(directions, hubs, legs, bisectors, limits, width, hub, net)
-
-
-def room_in_the_middle(hubs: tuple[Singularity, ...]) -> float:
-    """Distance of the first columns from singularities, in widths: more sectors need more room."""
-    return 0.4 * max(hub.sectors for hub in hubs) - 0.7
+    gap = (lengths.reach - hub) / max(sizes.columns - 1, 1)
+    creases = spaced(directions, "creases", bisectors, legs, Spacing(FIRST_CREASE * width, width, lengths.span), limits)
+    columns = spaced(directions, "columns", legs, bisectors, Spacing(hub, gap, lengths.reach), limits)
+    net = overlay(Crossings.of(creases, columns), tuple(single.place for single in hubs))
+    return AsymptoticLayout(directions, hubs, legs, bisectors, limits, width, hub, net, int(lengths.closed.sum()))
 
 
 def _regular(directions: Directions, sizes: Sizes, limits: Limits) -> AsymptoticLayout:
-    low, high = directions.chart.domain
-    middle = np.array([0.5 * (low + high)])
+    middle = np.array([beginning(directions.chart)])
+    limits = replace(limits, patch=limits.step)
     spine = trace_both_ways(directions, middle, "creases", limits)[0]
     across = trace_both_ways(directions, middle, "columns", limits)[0]
+    if not min(spine.length, across.length) > 0:
+        raise Infeasible("the asymptotic curve through the middle of the surface ends at once: the surface is too narrow "
+                         "there, or it has a hole; give another part of it, or close the hole")
     width = across.length / (sizes.creases + 1) if sizes.width is None else sizes.width
+    _refuse_specks(directions.chart, width)
+    limits = replace(limits, patch=PATCH * width)
     reach = spine.length if sizes.reach is None else 2 * sizes.reach
     creases = evenly(directions, "creases", across, sizes.creases, width, limits)
     columns = evenly(directions, "columns", spine, sizes.columns, reach / (sizes.columns + 1), limits)
-    return AsymptoticLayout(directions, (), (), (), limits, width, 0.0, overlay(creases, columns, ()))
+    return AsymptoticLayout(directions, (), (), (), limits, width, 0.0, overlay(Crossings.of(creases, columns), ()))
+
+
+def _refuse_specks(chart: Chart, width: float) -> None:
+    low, high = chart.domain
+    size = float(np.ptp(chart.positions(np.array([low, high, complex(low.real, high.imag), complex(high.real, low.imag)])),
+                        axis=0).max())
+    if width < SMALLEST * size:
+        raise Infeasible(f"creases {width:.2g} apart are specks on a surface {size:.2g} large: curvature cannot be told "
+                         "there; give a larger pattern.width, or fewer creases")

@@ -5,8 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from plisse.layout.asymptotic.curves import Leaf, Limits, trace_leaves
+from plisse.layout.asymptotic.crossings import met
+from plisse.layout.asymptotic.curves import Limits, trace_leaves
 from plisse.layout.asymptotic.directions import Directions, Field
+from plisse.layout.asymptotic.leaf import Leaf, Steps
 from plisse.layout.asymptotic.singularities import Singularity, radial_directions
 
 __all__ = ["Ray", "as_line", "crossings", "rays"]
@@ -27,23 +29,17 @@ def rays(directions: Directions, hubs: tuple[Singularity, ...], field: Field, li
     for number, hub in enumerate(hubs):
         outward = radial_directions(directions, hub, radius, field)
         for leaf in trace_leaves(directions, hub.place + radius * outward, outward, field, limits):
-            places = np.concatenate([[hub.place], leaf.places])
-            points = np.concatenate([directions.chart.positions(places[:1]), leaf.points])
-            out.append(Ray(number, Leaf(places, points, leaf.stop)))
+            straight = Steps(np.array([hub.place, leaf.steps.nodes[0]]), leaf.steps.tangents[[0, 0]], np.array([radius]))
+            points = np.concatenate([directions.chart.positions(straight.samples[:-1]), leaf.points])
+            out.append(Ray(number, Leaf(straight.followed_by(leaf.steps), points, leaf.stop)))
     return tuple(out)
 
 
 def crossings(leaf: Leaf, others: list[Leaf]) -> np.ndarray:
     """Length (N,) in space along a curve up to its first crossing with each of the others, nan where there is none."""
-    if not others:
-        return np.empty(0)
-    line = as_line(leaf)
-    met = shapely.intersection(line, np.array([as_line(other) for other in others]))
     reached = np.full(len(others), np.nan)
-    plane = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(leaf.places)))])
-    for k in np.flatnonzero(~shapely.is_empty(met)):
-        first = shapely.line_locate_point(line, shapely.points(shapely.get_coordinates(met[k]))).min()
-        reached[k] = np.interp(first, plane, leaf.arc)
+    found = met([leaf], others)
+    reached[found.other] = np.interp(found.on_one, leaf.plane, leaf.arc)
     return reached
 
 

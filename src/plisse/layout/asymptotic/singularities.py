@@ -11,20 +11,30 @@ __all__ = ["Singularity", "radial_directions", "singularities"]
 
 CELLS = 240
 NEWTON_STEPS = 30
+CLOSEST = 0.01  # cells between singularities that are told apart
 AROUND = 2880  # directions looked at on a circle
 
 
 @dataclass(frozen=True)
 class Singularity:
-    """A place where asymptotic directions are not determined, and the index of the fields around it, −½, −1, …"""
+    """A place where asymptotic directions are not determined, and the index of the fields around it, −½, −1, …
+
+    With `others` it is the middle of several such places too close to be told apart by a pattern, with their index.
+    """
 
     place: complex
     index: float
+    others: tuple[complex, ...] = ()
 
     @property
     def sectors(self) -> int:
         """Number of curves of each family that end there."""
         return round(2 - 2 * self.index)
+
+    @property
+    def spread(self) -> float:
+        """Largest distance of the others from the middle, in the plane."""
+        return max((abs(other - self.place) for other in self.others), default=0.0)
 
 
 def singularities(chart: Chart) -> tuple[Singularity, ...]:
@@ -38,11 +48,12 @@ def singularities(chart: Chart) -> tuple[Singularity, ...]:
     turn = (_turn(value[:-1, :-1], value[1:, :-1]) + _turn(value[1:, :-1], value[1:, 1:])
             + _turn(value[1:, 1:], value[:-1, 1:]) + _turn(value[:-1, 1:], value[:-1, :-1]))
     size = abs(high - low) / CELLS
-    found: list[Singularity] = []
+    zeros: list[complex] = []
     for i, j in np.argwhere(np.abs(turn) > np.pi):
         place = _zero(chart, places[i, j] + 0.5 * (u[1] - u[0] + 1j * (v[1] - v[0])), size)
-        if chart.inside(np.array([place]))[0] and all(abs(place - other.place) > 2 * size for other in found):
-            found.append(Singularity(place, _index(chart, place, 2 * size)))
+        if chart.inside(np.array([place]))[0] and all(abs(place - other) > 2 * size for other in zeros):
+            zeros.append(place)
+    found = (_around(chart, place, size) for place in zeros)
     return tuple(single for single in found if single.index != 0)
 
 
@@ -69,6 +80,19 @@ def _turn(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     return np.angle(end * np.conj(start))
 
 
+def _around(chart: Chart, place: complex, size: float) -> Singularity:
+    """The singularity at a zero, or the middle of all those within two cells of it, found from starts around it."""
+    index = _index(chart, place, 2 * size)
+    if index == _index(chart, place, CLOSEST * size):
+        return Singularity(place, index)
+    zeros = [place]
+    for start in place + np.outer([0.2, 0.6, 1.2], np.exp(2j * np.pi * np.arange(8) / 8)).ravel() * size:
+        zero = _zero(chart, complex(start), size)
+        if abs(zero - place) < 2 * size and all(abs(zero - other) > CLOSEST * size for other in zeros):
+            zeros.append(zero)
+    return Singularity(complex(np.mean(zeros)), index, tuple(zeros)) if len(zeros) > 1 else Singularity(place, index)
+
+
 def _index(chart: Chart, place: complex, radius: float) -> float:
     """Half the number of turns of A + iB around a circle, because directions turn half as fast as 2φ."""
     value = _deviator(chart, place + radius * np.exp(2j * np.pi * np.arange(240) / 240))
@@ -84,6 +108,6 @@ def _zero(chart: Chart, place: complex, size: float) -> complex:
         matrix = np.array([[du.real, dv.real], [du.imag, dv.imag]])
         step = complex(*np.linalg.lstsq(matrix, -np.array([here.real, here.imag]), rcond=None)[0])
         place += step * min(1.0, size / max(abs(step), 1e-300))
-        if abs(step) < 1e-13 * (1 + abs(place)):
+        if abs(step) < 1e-11 * size + 4 * np.finfo(float).eps * abs(place):
             break
     return place

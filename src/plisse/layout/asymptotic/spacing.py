@@ -8,8 +8,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from plisse.layout.asymptotic.curves import Leaf, Limits, trace_both_ways
+from plisse.layout.asymptotic.curves import Limits, trace_both_ways
 from plisse.layout.asymptotic.directions import Directions, Field
+from plisse.layout.asymptotic.leaf import Leaf
 from plisse.layout.asymptotic.rays import Ray, crossings
 
 __all__ = ["Spacing", "evenly", "spaced"]
