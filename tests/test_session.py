@@ -59,3 +59,14 @@ def test_patterns_are_made_once_for_one_size():
     session.update(theta=33)
     assert all(session._workspace._held[key] is value for key, value in held.items())
     assert len(session._workspace._held) == len(held)
+
+
+@pytest.mark.parametrize("changes", [{"units.x": 1}, {3: 4}, {None: 1}, [1], "theta", {"pattern.thta": None},
+                                     {"pattern.theta.x": None}, {"solve.nosuch": 3}, {"curve.nosuch": 1}])
+def test_changes_that_mean_nothing_are_refused_and_leave_the_session_as_it_was(changes):
+    session = plisse.Session({"curve": {"kind": "arc", "radius": 100, "angle": 60},
+                              "pattern": {"creases": 3, "samples": 12, "width": 8, "amplitude": 4}})
+    before = session.recipe
+    with pytest.raises(InvalidDesign):
+        session.update(changes)
+    assert session.recipe is before

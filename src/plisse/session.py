@@ -32,7 +32,8 @@ class Session:
 
         A value None brings a key's default back. Keys that stand in one section only need not name it.
         """
-        return self.open(changed(self.recipe, {**(changes or {}), **values}), progress=progress)
+        every = changes or {}
+        return self.open(changed(self.recipe, {**every, **values} if isinstance(every, dict) else every), progress=progress)
 
     def open(self, recipe: Recipe | dict | str | Path, *, progress: Progress | None = None) -> Result:
         """The structure of another recipe, on the patterns that are kept."""
@@ -44,21 +45,33 @@ class Session:
 
 def changed(recipe: Recipe, changes: dict) -> Recipe:
     """The checked recipe after changes, named as in `Session.update`; raises InvalidDesign where there is none."""
+    if not isinstance(changes, dict):
+        raise InvalidDesign(f'changes are {changes!r}; give a dictionary as in {{"pattern.theta": 30}}, or theta=30')
     data = recipe.to_dict()
     for name, value in changes.items():
         section, key = _place(recipe, name)
-        place = data if section is None else data.setdefault(section, {})
+        place = data if section is None else data.get(section, {})
         if value is None:
             place.pop(key, None)
         else:
             place[key] = value
+            if section is not None:
+                data[section] = place
     return design_from_dict(data)
 
 
 def _place(recipe: Recipe, name: str) -> tuple[str | None, str]:
     """Section and key that a name means."""
+    if not isinstance(name, str):
+        raise InvalidDesign(f"a change is named {name!r}; names are words as in pattern.theta or theta")
     section, dot, key = name.partition(".")
     if dot:
+        if section not in type(recipe).__struct_fields__ or section == "units":
+            raise InvalidDesign(f"{name} names no section of a design of this kind; its sections are "
+                                f"{', '.join(field for field in type(recipe).__struct_fields__ if field != 'units')}")
+        present = getattr(recipe, section)
+        if present is not None and key not in _keys(present):
+            raise InvalidDesign(f"{section} has no key {key}; its keys are {', '.join(sorted(_keys(present)))}")
         return section, key
     if name in (*SECTIONS, "units"):
         return None, name
