@@ -35,6 +35,15 @@ def test_totals_stand_below_the_markdown_table():
     assert f"{totals(rows)[1]:.1f}" in lines[-1]
 
 
+def test_examples_named_twice_are_solved_once_and_one_form_is_printed(capsys):
+    assert main(["table", "fig26", "fig26", "--json", "--quiet"]) == 0
+    assert len(json.loads(capsys.readouterr().out)) == 1
+    assert main(["table", "fig26", "--json", "--markdown"]) == 1
+    assert "--json and --markdown exclude each other" in capsys.readouterr().err
+    assert main(["table", ""]) == 1
+    assert "plisse: '' is no example of Fig. 21" in capsys.readouterr().err
+
+
 def test_an_example_that_the_paper_does_not_list_is_one_sentence(capsys):
     assert main(["table", "fig99"]) == 1
     assert "no example of Fig. 21" in capsys.readouterr().err

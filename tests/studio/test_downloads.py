@@ -54,6 +54,7 @@ def test_pictures_are_taken_from_where_the_camera_stands_and_in_its_colours(resu
     plain = made(Order(result, "arc"), "picture, PNG")
     assert made(Order(result, "arc", axes=np.eye(3)), "picture, PNG") != plain
     assert made(Order(result, "arc", colour="opening"), "picture, PNG") != plain
+    assert made(Order(result, "arc", percent=20.0), "picture, PNG") != plain
 
 
 def test_what_has_no_structure_has_a_report_and_says_so_for_the_rest(result):

@@ -8,6 +8,8 @@ from plisse.errors import InvalidDesign, InvalidMesh
 from plisse.io.designs import design_from_dict, read_design
 from plisse.shipped import shipped_design, shipped_names
 from plisse.studio.model import Desk
+from plisse.studio.requests import Mesh
+from plisse.studio.surface_panel import kept_guide, shape_of
 
 RECIPE = {"curve": {"kind": "spline", "points": [[0, 0, 0], [40, 18, 8], [80, 18, 14], [120, 0, 16]]},
           "pattern": {"theta": 40, "creases": 7, "width": 5, "amplitude": 3, "samples": 61}}
@@ -87,6 +89,32 @@ def test_text_in_is_text_out(desk):
         assert desk.toml == text
 
 
+def test_a_text_brings_its_own_title(desk):
+    cones = '[closed_form]\nkind = "cones"\ncreases = 4\n'
+    desk.read(f"# two cones\n{cones}")
+    assert desk.step.title == "two cones"
+    desk.read(cones)
+    assert desk.step.title == "closed form"
+    desk.undo()
+    assert desk.step.title == "two cones"
+
+
+def test_clicked_points_follow_the_design_back():
+    def over(guide):
+        surface = {"height": "0.001 * x * y", **({"guide": guide} if guide else {})}
+        return design_from_dict({"surface": surface, "pattern": {"theta": 45, "width": 5, "amplitude": 3}})
+
+    a, b, c = [0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [20.0, 5.0, 0.1]
+    assert kept_guide([a], over(None)) == [a]
+    assert kept_guide([a, b, c], over([a, b, c])) == [a, b, c]
+    assert kept_guide([a, b, c], over([a, b])) == [a, b]  # undone
+    assert kept_guide([a, b], over([a, b, c])) == [a, b, c]  # done again
+    assert kept_guide([a, b], over(None)) == []
+    assert kept_guide([a, b], over([b, c])) == []
+    assert kept_guide([], over([a, b])) == []
+    assert shape_of(over([a, b])) == shape_of(over(None)) != shape_of(design_from_dict(RECIPE))
+
+
 @pytest.mark.parametrize("text", ['[curve]\nkind="points"\nfile="/etc/passwd"', '[surface]\nfile="/etc/passwd"',
                                   '[surface]\nguide_file="/etc/passwd"', '[surface]\nedited_file="../secret.obj"'])
 def test_a_text_cannot_name_files(desk, text):
@@ -125,3 +153,10 @@ def test_what_is_no_mesh_file_is_refused(desk, name):
 def test_empty_files_are_refused(desk):
     with pytest.raises(InvalidMesh):
         desk.shelf.put("roof.obj", b"")
+
+
+def test_a_mesh_that_is_none_is_named_as_it_was_given(desk):
+    name = desk.shelf.put("roof.obj", b"no mesh at all")
+    with pytest.raises(InvalidMesh, match=r"^roof\.obj"):
+        Mesh(desk.shelf.path(name), name).run(None, None)
+    desk.close()

@@ -108,9 +108,10 @@ class Transfers:
     """The part of a client that takes files, without a browser."""
 
     def __init__(self):
-        self.handlers, self.taken, self.refused = {}, [], []
+        self.handlers, self.taken, self.refused, self.ended = {}, [], [], []
         self.gui = SimpleNamespace(_current_file_upload_states={}, _handle_file_transfer_start=self._begin,
-                                   _handle_file_transfer_part=self._take)
+                                   _handle_file_transfer_part=self._take,
+                                   _websock_interface=SimpleNamespace(queue_message=self.ended.append))
         self._websock_connection = SimpleNamespace(unregister_handler=lambda kind: None,
                                                    register_handler=self.handlers.__setitem__)
         self.uploads = Uploads(self)
@@ -136,12 +137,14 @@ def test_uploads_are_limited_in_size_even_where_it_was_declared_wrongly():
     client = Transfers()
     client.start("large", LARGEST_MESH + 1)
     assert client.refused
+    assert [(end.transfer_uuid, end.transferred_bytes) for end in client.ended] == [("large", LARGEST_MESH + 1)]
     client.part("large", b"x")
     assert client.taken == []
     client.start("liar", 10)
     for _ in range(3):
         client.part("liar", bytes(LARGEST_MESH // 2))
     assert client.taken == [LARGEST_MESH // 2] * 2
+    assert client.ended[-1].transferred_bytes == client.ended[-1].total_bytes  # the button is free again
     assert "liar" not in client.gui._current_file_upload_states
 
 

@@ -5,9 +5,12 @@ import re
 import msgspec
 
 import plisse
-from plisse.studio.motion_panel import marks_of
+from plisse.io.designs import design_from_dict
+from plisse.studio.look_panel import legend_html
+from plisse.studio.motion_panel import marks_of, why_fixed
 from plisse.studio.requests import Found
-from plisse.studio.status import broken, refused, solved, working
+from plisse.studio.status import broken, refused, remark, solved, working
+from plisse.studio.view import folded_view
 from plisse.transform.collisions import FreeRange
 
 RESULT = plisse.design({"closed_form": {"kind": "cones", "creases": 4, "samples": 11}})
@@ -50,3 +53,29 @@ def test_marks_of_the_motion_do_not_touch():
     assert marks_of(FreeRange(0.0, 200.0, ())) == [(0.0, "flat"), (100.0, "as designed"), (200.0, "folded")]
     marks = marks_of(FreeRange(5.0, 175.0, ()))
     assert [place for place, _ in marks] == [5.0, 100.0, 175.0]
+
+
+def test_a_pose_that_collides_is_said_above_the_status():
+    free = FreeRange(5.0, 175.0)
+    said = solved(FOUND, "cones", remark(False, 180.0, free))
+    assert words(said).index("colliding at this pose") < words(said).index("exact")
+    assert remark(False, 175.0, free) == remark(False, 180.0, None) == ""
+    assert "Pale" in remark(True, 100.0, None)
+
+
+def test_why_nothing_moves_is_the_true_reason():
+    recipe = design_from_dict({"curve": {"kind": "arc", "radius": 60, "angle": 60}, "solve": {"principal": True},
+                               "pattern": {"theta": 25, "creases": 4, "width": 5, "amplitude": 3, "samples": 15}})
+    assert "no structure" in why_fixed(None, recipe)
+    assert "no structure" in why_fixed(Found(msgspec.structs.replace(RESULT.report, principal=True), False), recipe)
+    view = folded_view(RESULT.structure)
+    loose = Found(msgspec.structs.replace(RESULT.report, principal=False), False, folded=view)
+    assert "switch principal on" in why_fixed(loose, RESULT.design)
+    assert "switch principal on" not in why_fixed(loose, recipe)
+    assert why_fixed(Found(msgspec.structs.replace(RESULT.report, principal=True), False, folded=view), recipe) == ""
+
+
+def test_the_legend_names_both_folds_and_the_scale_of_the_sheet():
+    assert "mountain" in legend_html(0.0)
+    assert "valley" in legend_html(0.0)
+    assert "1 : 2" in legend_html(0.5)

@@ -50,6 +50,11 @@ def test_random_samples_keep_their_beginning_when_more_are_asked_for():
     assert many[:5] == few
 
 
+def test_steps_of_a_tenth_look_like_it():
+    found = assignments({"a.b": {"low": 0, "high": 1, "step": 0.1}, "samples": 400, "method": "random"})
+    assert {str(values["a.b"]) for values in found} >= {"0.3", "0.7"} and all(len(str(v["a.b"])) <= 3 for v in found)
+
+
 @pytest.mark.parametrize("method", ["random", "latin-hypercube"])
 def test_another_seed_gives_other_samples_between_the_bounds(method):
     one, other = (assignments({**BOUNDS, "method": method, "seed": seed}) for seed in (1, 2))
@@ -96,6 +101,7 @@ def test_one_impossible_value_is_marked_and_the_others_stay(study):
     ({"vary": {"closed_form.slope": {"low": 2, "high": 1}, "samples": 3}}, "low must be below high"),
     ({"vary": {"closed_form.slope": {"start": 1, "stop": 2}}}, "missing required field `count`"),
     ({"vary": {"closed_form.slope": {"low": 0, "high": 1, "scale": "log"}, "samples": 3}}, "logarithmic"),
+    ({"vary": {"closed_form.slope": {"low": 1, "high": 2, "step": 1, "scale": "log"}, "samples": 3}}, "both a step and"),
     ({"vary": {"closed_form.kind.x": [1]}}, "goes through kind"),
     ({"vary": {}}, "vary names no key"),
     ({"vary": []}, "vary is empty"),

@@ -1,3 +1,4 @@
+import contextlib
 import sqlite3
 
 import pytest
@@ -6,7 +7,7 @@ from plisse.errors import PlisseError
 from plisse.study.outcome import Outcome
 from plisse.study.plan import read_plan
 from plisse.study.samples import samples
-from plisse.study.store import Store, locked
+from plisse.study.store import LOCK, Store, locked
 
 
 @pytest.fixture
@@ -71,6 +72,40 @@ def test_two_studies_on_one_store_are_refused_with_a_sentence(tmp_path):
         pass
     with locked(tmp_path):
         pass
+
+
+def test_what_cannot_be_a_lock_is_a_sentence(tmp_path):
+    (tmp_path / LOCK).mkdir()
+    with pytest.raises(PlisseError, match=r"\.study\.lock cannot be locked .*; remove it"), locked(tmp_path):
+        pass
+
+
+def test_reading_a_store_writes_nothing(tmp_path, planned):
+    with Store(tmp_path) as store:
+        store.plan(planned)
+        store.begun(planned[0].key)
+        with Store(tmp_path, reading=True) as reader:  # what is committed is seen at once
+            assert len(reader.rows()) == len(planned) and reader.rows()[0].status == "running"
+    file, before = tmp_path / "study.sqlite", sorted(tmp_path.iterdir())
+    file.chmod(0o444)
+    tmp_path.chmod(0o555)
+    try:
+        with Store(tmp_path, reading=True) as store:
+            assert len(store.rows()) == len(planned)
+        assert sorted(tmp_path.iterdir()) == before
+    finally:
+        tmp_path.chmod(0o755)
+
+
+@pytest.mark.parametrize("reading", [True, False])
+def test_the_database_of_somebody_else_stays_as_it_is(tmp_path, reading):
+    file = tmp_path / "study.sqlite"
+    with contextlib.closing(sqlite3.connect(file)) as base:
+        base.execute("CREATE TABLE songs (title)")
+    before = file.read_bytes()
+    with pytest.raises(PlisseError, match="not the store of a study"):
+        Store(tmp_path, reading=reading)
+    assert file.read_bytes() == before and list(tmp_path.iterdir()) == [file]
 
 
 def test_what_is_no_store_is_refused_and_left_alone(tmp_path):

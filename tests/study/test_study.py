@@ -119,6 +119,61 @@ def test_a_scheduler_that_does_not_answer_is_a_sentence(tmp_path, study, monkeyp
     monkeypatch.setattr("plisse.study.crew.ANSWER_SECONDS", 0.5)
     with pytest.raises(PlisseError, match=r"no Dask scheduler answers at tcp://127.0.0.1:9 .*dask scheduler"):
         run(study, tmp_path / "out", scheduler="tcp://127.0.0.1:9")
+    assert not any(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("address", ["banana", "", "tcp://", "tcp://host", "host:port", "http://10.0.0.1:8786/x"])
+def test_what_is_no_address_is_a_sentence_and_leaves_nothing(tmp_path, study, address):
+    with pytest.raises(PlisseError, match="give an address of the form tcp://host:port"):
+        run(study, tmp_path / "out", scheduler=address)
+    assert not any(tmp_path.iterdir())
+
+
+def test_a_server_that_is_no_scheduler_is_a_sentence_and_leaves_nothing(tmp_path, study, monkeypatch):
+    import socket
+
+    monkeypatch.setattr("plisse.study.crew.ANSWER_SECONDS", 0.5)
+    with socket.create_server(("127.0.0.1", 0)) as silent, pytest.raises(PlisseError, match="no Dask scheduler answers at"):
+        run(study, tmp_path / "out", scheduler=f"tcp://127.0.0.1:{silent.getsockname()[1]}")
+    assert not any(tmp_path.iterdir())
+
+
+def test_a_scheduler_without_workers_is_said_until_one_comes(tmp_path, study, monkeypatch):
+    from distributed import LocalCluster
+
+    said = []
+    monkeypatch.setattr("plisse.study.crew.SILENT_SECONDS", 0.2)
+    with LocalCluster(n_workers=0, threads_per_worker=1, dashboard_address=":0", protocol="tcp") as cluster:
+        address = cluster.scheduler_address
+
+        def listen(stage, fraction):
+            if "no workers" in stage and not said:
+                said.append(stage)
+                command = [sys.executable, "-m", "plisse.study.worker", address]
+                helpers.append(subprocess.Popen(command, stdin=subprocess.PIPE))
+
+        helpers: list[subprocess.Popen] = []
+        found = run(study, tmp_path / "out", scheduler=address, progress=listen)
+        for helper in helpers:
+            helper.kill()
+            helper.communicate()
+    assert said == [f"the scheduler has no workers yet: start `dask worker {address}`"]
+    assert found.counts == {"exact": 6}
+
+
+def test_designs_of_an_earlier_study_are_kept_and_not_counted(tmp_path, study, scheduler, capsys):
+    from plisse.cli import main
+
+    run(study, tmp_path, scheduler=scheduler)
+    hopeless = tmp_path / "hopeless.toml"
+    write_toml({**study, "vary": {"closed_form.slope": [99.0]}}, hopeless)
+    assert main(["study", str(hopeless), "-o", str(tmp_path), "--scheduler", scheduler]) == 3
+    printed = capsys.readouterr().out
+    assert printed.startswith("1 designs: 1 infeasible\n")
+    assert "6 designs of earlier studies are kept in the store, they are not counted" in printed
+    assert len((tmp_path / "results.csv").read_text(encoding="utf-8").splitlines()) == 2
+    assert main(["study", str(hopeless), "-o", str(tmp_path), "--best", "1"]) == 1
+    assert len(Study.load(tmp_path).rows) == 7
 
 
 def test_a_missing_dask_is_a_sentence(tmp_path, study, monkeypatch):

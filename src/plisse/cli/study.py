@@ -86,14 +86,16 @@ def _copy_best(study: Path | None, output: Path | None, count: int, by: str | No
     from plisse.errors import PlisseError
     from plisse.study import Study
     from plisse.study.plan import read_plan
+    from plisse.study.samples import samples
 
     if count < 1:
         raise PlisseError(f"--best is {count}; give a number from 1")
     directory = Path(study.stem) if study is not None and output is None else output
     if directory is None:
         raise PlisseError("no study is named; give a study file, or its directory with -o")
-    by = by or (read_plan(study).by if study is not None else "regularity")
-    found = Study.load(directory)
+    plan = None if study is None else read_plan(study)
+    by = by or ("regularity" if plan is None else plan.by)
+    found = Study.load(directory, None if plan is None else [sample.key for sample in samples(plan)])
     if not found.best(1, by=by):
         raise PlisseError(f"no design in {found.directory} is exact and has a {by.replace('_', ' ')}; widen the study")
     with progress(quiet or json) as advance:
@@ -110,7 +112,7 @@ def _print_json(found: Study, files: list[Path]) -> None:
     import msgspec
 
     seconds = sum(row.seconds or 0.0 for row in found.rows)
-    told = {"directory": str(found.directory), "designs": len(found.rows), "outcomes": found.counts,
+    told = {"directory": str(found.directory), "designs": len(found.rows), "others": found.others, "outcomes": found.counts,
             "seconds_of_designs": seconds, "best": [str(file) for file in files]}
     print(msgspec.json.format(msgspec.json.encode(told)).decode())
 
@@ -130,6 +132,8 @@ def _summarise(found: Study) -> None:
     alike = Counter((row.status, _kind(row.reasons[0])) for row in found.rows if row.reasons)
     for (status, kind), count in alike.most_common(5):
         console.print(Text(f"· {count} {status}: {kind}"))
+    if found.others:
+        console.print(Text(f"· {found.others} designs of earlier studies are kept in the store, they are not counted"))
     for file in sorted(file for file in found.directory.iterdir() if file.is_file() and not file.name.startswith(".")):
         console.print(Text(str(file), "dim"))
 
@@ -143,18 +147,19 @@ def _kind(reason: str) -> str:
 
 @contextmanager
 def _progress(quiet: bool) -> Iterator[Callable[[str, float], None]]:
-    """A bar on a terminal, a line a minute elsewhere: studies run overnight."""
+    """A bar on a terminal, a line a minute elsewhere, and what is no count at once: studies run overnight."""
     import sys
     from time import monotonic
 
     from plisse.cli.console import progress
 
-    last = monotonic()
+    last, said = monotonic(), ""
 
     def line(stage: str, fraction: float) -> None:
-        nonlocal last
-        if not quiet and monotonic() - last > LINE_EVERY:
-            last = monotonic()
+        nonlocal last, said
+        news = stage != said and not stage[:1].isdigit()
+        if not quiet and (news or monotonic() - last > LINE_EVERY):
+            last, said = monotonic(), stage
             print(stage, file=sys.stderr, flush=True)
 
     with progress(quiet) as bar:

@@ -29,15 +29,17 @@ def table(*names: str, json: Annotated[bool, Parameter(negative=())] = False,
     import msgspec
 
     from plisse.cli.console import progress, show_table
-    from plisse.errors import InvalidDesign
+    from plisse.errors import InvalidDesign, PlisseError
     from plisse.table import PRINTED, as_markdown
     from plisse.table import table as rows_of
 
+    if json and markdown:
+        raise PlisseError("--json and --markdown exclude each other; give one of them")
     unknown = [name for name in names if name not in PRINTED]
     if unknown:
-        raise InvalidDesign(f"{unknown[0]} is no example of Fig. 21; those are {', '.join(PRINTED)}")
+        raise InvalidDesign(f"{unknown[0] or repr(unknown[0])} is no example of Fig. 21; those are {', '.join(PRINTED)}")
     with progress(quiet or json) as report:
-        rows = rows_of(names or None, progress=report)
+        rows = rows_of(dict.fromkeys(names) or None, progress=report)
     if json:
         print(msgspec.json.format(msgspec.json.encode(rows)).decode())
     elif markdown:

@@ -18,6 +18,7 @@ from plisse.io.plate_table import write_plates_csv
 from plisse.io.report import report_json
 from plisse.result import Result
 from plisse.studio.bench import required
+from plisse.transform.collisions import DESIGNED
 from plisse.transform.flex import Motion
 
 __all__ = ["KINDS", "MATERIAL", "Order", "file_name", "made"]
@@ -33,7 +34,8 @@ class Order:
     """A result with its title, and how files of it are to be made.
 
     `length` is the thickness of plates or the distance of the offset in model units, `axes` (3, 3) are those of the camera,
-    `colour` names a colour map or none, `material` is the size of sheets in mm.
+    `colour` names a colour map or none, `percent` is the state of the motion that the picture shows, `material` is the
+    size of sheets in mm.
     """
 
     result: Result
@@ -42,6 +44,7 @@ class Order:
     axes: np.ndarray | None = None
     colour: str = ""
     material: tuple[float, float] = MATERIAL
+    percent: float = DESIGNED
 
 
 Write = Callable[[Order, Path], None]
@@ -100,7 +103,10 @@ def _picture(order: Order, path: Path) -> None:
     from plisse.draw.picture import Style, write_picture
 
     structure = required(order.result)
-    colour = colour_maps(structure, deviation_of(order.result)).get(order.colour)
+    if order.percent == DESIGNED:
+        colour = colour_maps(structure, deviation_of(order.result)).get(order.colour)
+    else:
+        structure, colour = structure.flex(order.percent).structures[0], None  # as on screen, where poses are paper
     camera = None if order.axes is None else Camera(order.axes)
     write_picture(structure, path, camera=camera, style=Style(PIXELS, colour=colour))
 

@@ -12,6 +12,7 @@ from plisse.studio.child import Answer, Failure, Stage
 from plisse.studio.downloads import KINDS, Order, file_name
 from plisse.studio.requests import Candidates, Fetch, Mesh, Reach, Request, Take
 from plisse.studio.status import working
+from plisse.studio.surface_panel import shape_of
 from plisse.studio.worker import Worker
 
 if TYPE_CHECKING:
@@ -80,11 +81,12 @@ class Errands:
             tab.client.send_file_download(name, value, save_immediately=True)
             tab.panels.note(f"{name} is in your downloads")
         elif isinstance(request, Reach):
-            tab.panels.show_reach(*value)
+            tab.show_reach(*value)
         elif isinstance(request, Mesh):
             tab.read(f'[surface]\nfile = "{request.name}"\n', request.name.rpartition(".")[0])
         elif isinstance(request, Candidates):
-            tab.panels.show_candidates(*value)
+            if shape_of(request.recipe) == shape_of(tab.desk.solvable):
+                tab.panels.show_candidates(*value)
             tab.say_found()
 
     def _ask(self, request: Request) -> None:

@@ -35,7 +35,7 @@ class Transfers:
     def __init__(self, client: ClientHandle, start: Callable[[Any], bool], part: Callable[[Any], bool]):
         from viser import _messages as messages
 
-        self._gui = client.gui
+        self._gui, self._acknowledgement = client.gui, messages.FileTransferPartAck
         connection = client._websock_connection
         for kind, allowed, take in (
                 (messages.FileTransferStartUpload, start, self._gui._handle_file_transfer_start),
@@ -50,6 +50,12 @@ class Transfers:
     def drop(self, transfer: str) -> None:
         """Forget what came of a file."""
         self._gui._current_file_upload_states.pop(transfer, None)
+
+    def end(self, start: Any) -> None:
+        """Tell the client that the file that it announced with `start` is done with, so that its button is free again."""
+        size = start.size_bytes
+        self._gui._websock_interface.queue_message(
+            self._acknowledgement(start.source_component_uuid, start.transfer_uuid, size, size))
 
 
 def _if_allowed(allowed: Callable[[Any], bool], take: Callable[[Any, Any], None]):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from plisse.draw import colours
 from plisse.draw.camera import Camera
 from plisse.draw.colour_maps import NAMES
 from plisse.studio.view import Tint
@@ -15,7 +16,7 @@ from plisse.studio.view import Tint
 if TYPE_CHECKING:
     from plisse.studio.tab import Tab
 
-__all__ = ["LookPanel", "scale_html"]
+__all__ = ["LookPanel", "legend_html", "scale_html"]
 
 PAPER = "paper"
 SWITCHES = (("rulings", "rulings"), ("creases", "creases"), ("sheet", "flat sheet beside"), ("seed", "seed curve"),
@@ -34,6 +35,15 @@ def scale_html(tint: Tint) -> str:
             f"<div style='position:relative;height:1.4em'>{marks}</div></div>")
 
 
+def legend_html(scale_of_sheet: float) -> str:
+    """What the colours of lines mean, and how large the sheet is beside the structure (0 for none)."""
+    lines = " ".join(f"<span style='color:{ink}'>━━</span> {words}"
+                     for ink, words in ((colours.MOUNTAIN, "mountain"), (colours.VALLEY, "valley")))
+    ratio = f"1 : {1 / scale_of_sheet:.0f}" if scale_of_sheet else ""
+    sheet = f"<br>flat sheet at {ratio} of the structure" if scale_of_sheet else ""
+    return f"<div style='font-size:0.86em;padding:0 1em'>{lines}{sheet}</div>"
+
+
 class LookPanel:
     """Switches that change the picture and nothing else."""
 
@@ -44,6 +54,7 @@ class LookPanel:
         with gui.add_folder("Show"):
             for name, words in SWITCHES:
                 gui.add_checkbox(words, getattr(tab.scene.shown, name)).on_update(self._switched(name))
+            self._legend = gui.add_html(legend_html(0.0))
             self._colours = gui.add_dropdown("colours", (PAPER, *NAMES))
             self._scale = gui.add_html("", visible=False)
         with gui.add_folder("Thick"):
@@ -60,6 +71,10 @@ class LookPanel:
         self._views.on_click(self._viewed)
         self._turntable.on_update(self._turned)
 
+    def refresh(self) -> None:
+        """Bring the legend to what is on screen."""
+        self._legend.content = legend_html(self._tab.scene.scale_of_sheet)
+
     def show_paper(self) -> None:
         """Set the choice of colours to none."""
         self._colours.value = PAPER
@@ -75,7 +90,7 @@ class LookPanel:
         """How what is taken away is made, as `downloads.Order` has it: as it is seen."""
         camera = self._tab.client.camera
         axes = Camera.looking_from(camera.position - camera.look_at, camera.up_direction).axes
-        return {"length": float(self._length.value), "axes": axes, "colour": self._tab.colour}
+        return {"length": float(self._length.value), "axes": axes, "colour": self._tab.colour, "percent": self._tab.percent}
 
     def fit(self, size: float) -> None:
         """Suggest a thickness for structures of a size (radius), where none was chosen."""
@@ -96,6 +111,7 @@ class LookPanel:
         async def switched(event) -> None:
             setattr(self._tab.scene.shown, name, event.target.value)
             self._tab.scene.redraw()
+            self.refresh()
 
         return switched
 

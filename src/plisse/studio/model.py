@@ -18,6 +18,8 @@ __all__ = ["Desk", "Step"]
 TOGETHER = 1.0
 MOST_STEPS = 1000
 LONGEST_TEXT = 1_000_000
+LONGEST_TITLE = 200
+KINDS = ("surface", "march", "closed_form", "strips", "parallel", "curve", "units")  # sections that name a design
 
 
 @dataclass(frozen=True)
@@ -104,7 +106,7 @@ class Desk:
         except (tomllib.TOMLDecodeError, RecursionError) as error:
             raise InvalidDesign(f"the text is not valid TOML: {error}; mend that line") from None
         recipe = design_from_dict(self.shelf.shown(data))
-        self._push(Step(recipe, title or self.step.title))
+        self._push(Step(recipe, title or _title_of(text, recipe)))
 
     def undo(self) -> None:
         """Go one step back, if there is one."""
@@ -126,3 +128,10 @@ class Desk:
         self._steps = [*self._steps[:self._at + 1], step][-MOST_STEPS:]
         self._at = len(self._steps) - 1
         self._last = frozenset(), 0.0
+
+
+def _title_of(text: str, recipe: Recipe) -> str:
+    """The comment that the text begins with, else the kind of the design."""
+    first = text.lstrip().partition("\n")[0]
+    said = first.lstrip("# ").strip()[:LONGEST_TITLE] if first.startswith("#") else ""
+    return said or next(name for name in KINDS if getattr(recipe, name, None) is not None).replace("_", " ")

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from plisse.recipe import Recipe
 from plisse.studio.inside import set_marks
+from plisse.studio.requests import Found
 from plisse.transform.collisions import FreeRange
 
 if TYPE_CHECKING:
     from plisse.studio.tab import Tab
 
-__all__ = ["MotionPanel", "marks_of"]
+__all__ = ["MotionPanel", "marks_of", "why_fixed"]
 
 FIXED = "This structure is not principal, so it has no motion that keeps its rulings; switch principal on under Exactness."
+NO_STRUCTURE = "There is no structure, so there is no motion; the status says why."
+NOT_YET = "This structure is not principal although principal is on, so it does not move; the status says why."
 MEASURING = "The range that is free of collisions is being measured …"
 STATES = {0.0: "flat", 100.0: "as designed", 200.0: "folded"}
 APART = 40.0  # percent between marks whose words do not touch
@@ -24,6 +28,15 @@ def marks_of(free: FreeRange) -> list[tuple[float, str]]:
             if end not in STATES]
     named = [(state, words) for state, words in STATES.items() if all(abs(state - end) >= APART for end, _ in ends)]
     return sorted([*ends, *named])
+
+
+def why_fixed(found: Found | None, recipe: Recipe) -> str:
+    """Why what was found does not move; empty where it does."""
+    if found is None or found.folded is None:
+        return NO_STRUCTURE
+    if found.report.principal:
+        return ""
+    return NOT_YET if getattr(getattr(recipe, "solve", None), "principal", False) else FIXED
 
 
 class MotionPanel:
@@ -38,12 +51,11 @@ class MotionPanel:
 
     def refresh(self) -> None:
         """Bring the slider to the design on screen."""
-        found = self._tab.found
-        moves = found is not None and found.report.principal
-        self._percent.disabled = not moves
+        fixed = why_fixed(self._tab.found, self._tab.desk.recipe)
+        self._percent.disabled = fixed != ""
         self._percent.value = self._tab.percent
-        if not moves:
-            self._words.content = FIXED
+        if fixed:
+            self._words.content = fixed
 
     def forget_reach(self) -> None:
         """Take the marks of a free range away, which belong to another structure."""

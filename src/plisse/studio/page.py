@@ -55,6 +55,16 @@ SCRIPT = """<script>
     const used = event.target.closest("[role=slider], [role=tab], [role=option], input, textarea");
     if (used && !event.ctrlKey && !event.metaKey && !event.altKey) event.stopPropagation();
   });
+  // a box for a number that is left with something else has its last number again
+  document.addEventListener("focusin", ({ target }) => {
+    if (target.matches("input[inputmode=decimal], input[inputmode=numeric]")) target.dataset.before = target.value;
+  });
+  document.addEventListener("focusout", ({ target }) => {
+    const before = target.dataset?.before;
+    if (!before || (target.value.trim() && Number.isFinite(Number(target.value)))) return;
+    Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value").set.call(target, before);
+    target.dispatchEvent(new Event("input", { bubbles: true }));
+  });
   let waiting = false;
   new MutationObserver(() => {
     if (waiting) return;

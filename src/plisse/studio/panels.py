@@ -92,7 +92,7 @@ class Panels:
 
     def refresh(self) -> None:
         """Bring all controls to what is on the desk."""
-        for panel in (self._design, *self._series, self._points, self._motion, self._surface, self._take):
+        for panel in (self._design, *self._series, self._points, self._motion, self._look, self._surface, self._take):
             panel.refresh()
 
     def fit(self, size: float) -> None:

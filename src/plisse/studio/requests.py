@@ -1,6 +1,7 @@
 """What a client can ask of its process; every request is one or two calls of the library, as a script would make them."""
 
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
@@ -8,7 +9,7 @@ import numpy as np
 from plisse.draw.camera import best_view
 from plisse.draw.colour_maps import colour_maps, deviation_of
 from plisse.draw.plates import plates_mesh
-from plisse.errors import InvalidStructure
+from plisse.errors import InvalidMesh, InvalidStructure
 from plisse.io.meshes import read_mesh
 from plisse.recipe import Recipe, SurfaceDesign
 from plisse.result import Report, Result
@@ -191,7 +192,10 @@ class Mesh(Request):
 
     def run(self, bench: Bench, progress: Progress) -> int:
         """The number of its triangles; raises InvalidMesh for what is no surface."""
-        return len(read_mesh(self.path).triangles)
+        try:
+            return len(read_mesh(self.path).triangles)
+        except InvalidMesh as error:
+            raise InvalidMesh(str(error).replace(Path(self.path).name, self.name)) from None
 
 
 @dataclass(frozen=True, eq=False)

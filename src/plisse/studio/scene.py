@@ -38,6 +38,7 @@ class Scene:
         self._view: View | None = None
         self._axes = np.eye(3)
         self._tint = None
+        self.is_pale = False
         self._folded, self._sheet = Paper(client.scene, "/folded"), Paper(client.scene, "/sheet")
 
     @property
@@ -49,6 +50,14 @@ class Scene:
         points = found.folded.points
         middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
         return middle, float(np.linalg.norm(points - middle, axis=1).max())
+
+    @property
+    def scale_of_sheet(self) -> float:
+        """How large the sheet is shown, 1 as large as the structure; 0 where it is not shown."""
+        found = self._found
+        if found is None or found.sheet is None or found.folded is None or self.is_pale or not self.shown.sheet:
+            return 0.0
+        return self._sheet_place(found)[1]
 
     @property
     def points(self) -> np.ndarray:
@@ -63,7 +72,7 @@ class Scene:
 
     def show(self, found: Found) -> None:
         """Show a solved design; what it lacks disappears."""
-        self._found = found
+        self._found, self.is_pale = found, False
         if found.axes is not None:
             self._axes = found.axes
         with self._client.atomic():
@@ -87,6 +96,7 @@ class Scene:
 
     def pale(self) -> None:
         """Show that what is on screen is not the structure of the design any more."""
+        self.is_pale = True
         with self._client.atomic():
             self._drop_tint()
             self._remove((*MARKS, *OVERLAP))
@@ -95,7 +105,7 @@ class Scene:
 
     def redraw(self) -> None:
         """Show the same again, after a switch was turned."""
-        if self._found is None:
+        if self._found is None or self.is_pale:
             return
         with self._client.atomic():
             self._folded.show(self._view, self.shown)

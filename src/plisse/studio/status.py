@@ -5,8 +5,9 @@ from html import escape
 
 from plisse.result import Report
 from plisse.studio.requests import Found
+from plisse.transform.collisions import FreeRange
 
-__all__ = ["Status", "broken", "numbers_of", "refused", "solved", "working"]
+__all__ = ["Status", "broken", "numbers_of", "refused", "remark", "solved", "working"]
 
 MARKS = {"exact": ("✔", "#1f6b4a"), "approximate": ("≈", "#8a5a00"), "infeasible": ("✖", "#9b2f24"),
          "draft": ("…", "#4d463f")}
@@ -33,13 +34,20 @@ def solved(found: Found, title: str, above: str = "") -> Status:
                    f"{_table(report)}<ul style='margin:0.3em 0;padding-left:1.2em'>{listed}</ul>", above)
 
 
+def remark(is_pale: bool, percent: float, free: FreeRange | None) -> str:
+    """What holds for the picture and not for the design, as HTML: that it is an old one, or a pose that collides."""
+    if is_pale:
+        return "<div>Pale is what was there before.</div>"
+    if free is None or percent in free:
+        return ""
+    return _alert("colliding at this pose", f"{percent:g} %, and free is {free.low:.4g} to {free.high:.4g} %")
+
+
 def refused(sentence: str, found: Found | None, title: str) -> Status:
     """Why something was not done, above the status of what is still on screen."""
     if found is None:
         return _status("infeasible", "not done", sentence)
-    above = (f"<div role='alert' style='border-left:0.3em solid {MARKS['infeasible'][1]};padding-left:0.5em;"
-             f"margin-bottom:0.4em'><b>not done:</b> {escape(sentence)}</div>")
-    status = solved(found, title, above)
+    status = solved(found, title, _alert("not done", sentence))
     return Status(status.html, f"{MARKS['infeasible'][0]} not done · {sentence}")
 
 
@@ -75,6 +83,11 @@ def numbers_of(report: Report) -> list[tuple[str, str]]:
     if "total" in report.seconds:
         rows.append(("solved in", f"{1000 * report.seconds['total']:.0f} ms"))
     return rows
+
+
+def _alert(word: str, sentence: str) -> str:
+    return (f"<div role='alert' style='border-left:0.3em solid {MARKS['infeasible'][1]};padding-left:0.5em;"
+            f"margin-bottom:0.4em'><b>{word}:</b> {escape(sentence)}</div>")
 
 
 def _pale(found: Found) -> str:

@@ -7,18 +7,40 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plisse.recipe import SurfaceDesign
+from plisse.draw import colours
+from plisse.recipe import Recipe, SurfaceDesign
+from plisse.studio.paper import ink_bytes
 from plisse.studio.picking import first_hit
 from plisse.studio.shelf import LARGEST_MESH, MESH_FORMATS
 
 if TYPE_CHECKING:
     from plisse.studio.tab import Tab
 
-__all__ = ["SurfacePanel"]
+__all__ = ["SurfacePanel", "kept_guide", "shape_of"]
 
 NOTHING, CENTRE, GUIDE = "turns the view", "sets the centre", "adds a guide point"
+DOT = "/guide"
+SHAPE = ("file", "edited_file", "handles", "height", "radius", "torus", "x", "y")
 WORDS = (f"Upload a mesh ({', '.join(MESH_FORMATS)}, up to {LARGEST_MESH // 1_000_000} MB). It is read as data on this "
          "machine and goes nowhere else.")
+
+
+def shape_of(recipe: Recipe) -> tuple:
+    """What the surface of a recipe is, whatever is laid over it; empty for designs without one."""
+    if not isinstance(recipe, SurfaceDesign):
+        return ()
+    return tuple(getattr(recipe.surface, name) for name in SHAPE)
+
+
+def kept_guide(clicked: list[list[float]], recipe: Recipe) -> list[list[float]]:
+    """The points that were clicked, as far as the design still has them: the next click goes on from there."""
+    surface = recipe.surface if isinstance(recipe, SurfaceDesign) else None
+    guide = [] if surface is None or surface.guide is None else [[float(x) for x in point] for point in surface.guide]
+    if guide and guide[:len(clicked)] == clicked:
+        return guide if clicked else []
+    if len(clicked) == 1:
+        return clicked  # one point is no guide yet
+    return guide if clicked[:len(guide)] == guide else []
 
 
 class SurfacePanel:
@@ -38,21 +60,29 @@ class SurfacePanel:
             self._results = gui.add_folder("Candidates", visible=False)
         self._shown: list = []
         self._guide: list[list[float]] = []
+        self._shape: tuple = ()
         self._search.on_click(self._searched)
         self._click.on_update(self._click_changed)
         self._forget.on_click(self._forgotten)
 
     def refresh(self) -> None:
         """Show what belongs to surfaces for surfaces only."""
-        self._folder.visible = isinstance(self._tab.desk.recipe, SurfaceDesign)
+        recipe = self._tab.desk.recipe
+        self._folder.visible = isinstance(recipe, SurfaceDesign)
+        if shape_of(recipe) != self._shape:
+            self._shape = shape_of(recipe)
+            self._forget_candidates()
+            self._begin_guide([])
+        guide = kept_guide(self._guide, recipe)
+        if guide != self._guide:
+            self._begin_guide(guide)
 
     def show_candidates(self, picture: bytes, choices: list[tuple[str, dict]]) -> None:
         """Show the picture of all layouts and a button for each."""
         from PIL import Image
 
-        for node in self._shown:
-            node.remove()
-        self._shown, self._results.visible = [], True
+        self._forget_candidates()
+        self._results.visible = True
         with self._results:
             image = np.asarray(Image.open(io.BytesIO(picture)).convert("RGB"))
             self._shown.append(self._gui.add_image(image, label="layouts, seen from above"))
@@ -60,6 +90,16 @@ class SurfacePanel:
                 button = self._gui.add_button(words)
                 button.on_click(self._taken(changes))
                 self._shown.append(button)
+
+    def _forget_candidates(self) -> None:
+        for node in self._shown:
+            node.remove()
+        self._shown, self._results.visible = [], False
+
+    def _begin_guide(self, points: list[list[float]]) -> None:
+        """Go on from points; the dot of a first click disappears."""
+        self._guide = points
+        self._tab.client.scene.remove_by_name(DOT)
 
     def _taken(self, changes: dict):
         async def taken(_event) -> None:
@@ -75,14 +115,14 @@ class SurfacePanel:
         self._tab.errands.lay_out(self._count.value)
 
     async def _forgotten(self, _event) -> None:
-        self._guide = []
+        self._begin_guide([])
         self._tab.change({"surface.guide": None, "surface.centre": None, "surface.directions": None, "surface.reach": None,
                           "pattern.creases": None})
 
     async def _click_changed(self, _event) -> None:
         scene = self._tab.client.scene
         scene.remove_click_callback()
-        self._guide = []
+        self._begin_guide([])
         if self._click.value != NOTHING:
             scene.on_click()(self._clicked)
 
@@ -99,9 +139,14 @@ class SurfacePanel:
         if self._click.value == CENTRE:
             self._tab.change({"surface.guide": None, "surface.directions": None, "surface.centre": place})
             return
-        self._guide.append(place)
-        if len(self._guide) >= 2:
-            self._tab.change({"surface.centre": None, "surface.guide": self._guide, **_sizes(recipe, size)})
+        guide = [*self._guide, place]
+        self._begin_guide(guide)
+        if len(guide) == 1:
+            scene = self._tab.client.scene
+            scene.add_icosphere(DOT, 0.01 * size, ink_bytes(colours.MOUNTAIN), position=place, cast_shadow=False)
+            self._tab.panels.note("The first point of a guide; click where it goes next.")
+        else:
+            self._tab.change({"surface.centre": None, "surface.guide": guide, **_sizes(recipe, size)})
 
 
 def _sizes(recipe: SurfaceDesign, size: float) -> dict:

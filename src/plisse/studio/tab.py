@@ -20,15 +20,17 @@ from plisse.studio.pace import Pace
 from plisse.studio.panels import Panels
 from plisse.studio.requests import Colour, Found, Pose, Request, Solid, Solve
 from plisse.studio.scene import Scene
-from plisse.studio.status import broken, refused, solved, working
+from plisse.studio.status import broken, refused, remark, solved, working
 from plisse.studio.uploads import Uploads
 from plisse.studio.worker import Worker
+from plisse.transform.collisions import FreeRange
 
 if TYPE_CHECKING:
     from viser import ClientHandle
 
 __all__ = ["Tab"]
 
+LATE = 0.4  # seconds after which a solve is said to be under way
 REST, LONGER = 0.08, 1.0  # seconds without a change before a full answer, and before what takes longer, is asked for
 
 
@@ -46,6 +48,10 @@ class Tab:
         self.is_open = True
         self._framed = self._is_refused = False
         self._rest: asyncio.TimerHandle | None = None
+        self.free: FreeRange | None = None
+        self._asked: Solve | None = None
+        self._watch: asyncio.TimerHandle | None = None
+        self._is_late = False
         self._hands = Worker(self.deliver)
         self._uploads = Uploads(client)
         self.errands = Errands(self)
@@ -64,6 +70,8 @@ class Tab:
             return self.panels.refresh()
         if self.desk.step is not before:
             self._solve()
+        elif self._is_refused:
+            self.say_found()
         return self.panels.refresh()
 
     def change(self, changes: dict) -> None:
@@ -84,6 +92,7 @@ class Tab:
         """Show a state of the motion."""
         self.percent = percent
         self._dress()
+        self._say_pose()
 
     def paint(self, name: str) -> None:
         """Lay a colour map over the structure as it was designed, or none for the empty name."""
@@ -108,7 +117,13 @@ class Tab:
         """Say what is on screen."""
         self._is_refused = False
         if self.found is not None:
-            self.panels.say(solved(self.found, self.desk.step.title))
+            self.panels.say(solved(self.found, self.desk.step.title, remark(self.scene.is_pale, self.percent, self.free)))
+
+    def show_reach(self, free: FreeRange, offsets: tuple[float, float]) -> None:
+        """Show how far the structure moves and can be offset."""
+        self.free = free
+        self.panels.show_reach(free, offsets)
+        self._say_pose()
 
     def show_handles(self) -> None:
         """Put the handles where the control points are."""
@@ -121,8 +136,9 @@ class Tab:
     def close(self) -> None:
         """End the processes and remove the files."""
         self.is_open = False
-        if self._rest is not None:
-            self._loop.call_soon_threadsafe(self._rest.cancel)
+        for timer in (self._rest, self._watch):
+            if timer is not None:
+                self._loop.call_soon_threadsafe(timer.cancel)
         self._hands.close()
         self.errands.close()
         self.desk.close()
@@ -133,12 +149,39 @@ class Tab:
         self._later(None)
         draft = self._pace.draft(recipe)
         if draft is not None:
-            self._hands.ask(Solve(draft, drafted=True, colour=self.colour))
+            self._ask_solve(Solve(draft, drafted=True, colour=self.colour))
         whole = Solve(recipe, framed=not self._framed, colour=self.colour)
         if at_once or not self._pace.waits(recipe):
-            self._hands.ask(whole)
+            self._ask_solve(whole)
         else:
-            self._later(lambda: self._hands.ask(whole))
+            self._later(lambda: self._ask_solve(whole))
+
+    def _ask_solve(self, request: Solve) -> None:
+        """Ask for a solve, and say so where nothing comes of it for a while."""
+        self._asked = request
+        if self._watch is None:
+            self._watch = self._loop.call_later(LATE, self._grow_late)
+        self._hands.ask(request)
+
+    def _grow_late(self) -> None:
+        if self.is_open:
+            self._is_late = True
+            self.panels.say(working("solving", 0.0, self.found))
+
+    def _solve_ended(self, request: Solve) -> None:
+        """Stop waiting for a solve, and go on waiting where a newer one was asked for."""
+        if self._watch is not None:
+            self._watch.cancel()
+        self._watch, self._is_late = None, False
+        if request is self._asked:
+            self._asked = None
+        else:
+            self._watch = self._loop.call_later(LATE, self._grow_late)
+
+    def _say_pose(self) -> None:
+        """Say again what is on screen, where nothing else is to be said."""
+        if self._asked is None and not self._is_refused:
+            self.say_found()
 
     def _later(self, action: Callable | None, seconds: float = REST) -> None:
         if self._rest is not None:
@@ -153,16 +196,16 @@ class Tab:
 
     def _receive(self, request: Request, message: Answer | Failure | Stage) -> None:
         if not self.is_open:
-            return
+            return None
         if not isinstance(request, Solve | Pose | Solid | Colour):
-            self.errands.receive(request, message)
-        elif isinstance(message, Stage):
-            if isinstance(request, Solve) and not self._pace.is_fast:
+            return self.errands.receive(request, message)
+        if isinstance(message, Stage):
+            if isinstance(request, Solve) and (self._is_late or not self._pace.is_fast):
                 self.panels.say(working(message.name, message.fraction, self.found))
-        elif isinstance(message, Failure):
-            self._break(request, message.sentence)
-        else:
-            self._take_in(request, message)
+            return None
+        if isinstance(request, Solve):
+            self._solve_ended(request)
+        return self._break(request, message.sentence) if isinstance(message, Failure) else self._take_in(request, message)
 
     def _take_in(self, request: Request, answer: Answer) -> None:
         value = answer.value
@@ -200,9 +243,12 @@ class Tab:
     def _show(self, request: Solve, found: Found, seconds: float) -> None:
         if not request.drafted:
             self._pace.learn(found, seconds)
-        self.found = found
+        self.found, self.free = found, None
         self.percent = 100.0
-        self.scene.show(found)
+        if found.folded is None and not (request.framed and found.reference is not None):
+            self.scene.pale()
+        else:
+            self.scene.show(found)
         if found.tint is not None and not self.solid[0]:
             self.scene.tint(found.tint)
         self.panels.show_scale(None if self.solid[0] else found.tint)
@@ -231,12 +277,14 @@ class Tab:
 
     def _dress(self) -> None:
         """Show the structure as it is chosen: in a state of its motion, as plates or an offset, in colours, or as paper."""
-        if self.percent != 100.0:
+        if self.found is None or self.found.folded is None:
+            pass  # what is pale stays as it is
+        elif self.percent != 100.0:
             self._hands.ask(Pose(self.desk.solvable, self.percent))
         elif self.solid[0]:
             self._hands.ask(Solid(self.desk.solvable, *self.solid))
         elif self.colour:
             return self._hands.ask(Colour(self.desk.solvable, self.colour))
-        elif self.found is not None:
+        else:
             self.scene.show(self.found)
         return self.panels.show_scale(None)

@@ -1,11 +1,14 @@
 """Who makes the designs: Dask workers started on this machine, or those of a scheduler that runs already."""
 
+import asyncio
 import logging
+import re
 import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager, suppress
 from time import monotonic
 
 from plisse.errors import PlisseError
@@ -18,6 +21,8 @@ PURPOSE = "studies"
 PATIENCE = 10.0  # seconds within which a worker that ends has not worked at all
 FAILURES = 5
 ANSWER_SECONDS = 20.0
+SILENT_SECONDS = 5.0  # without workers, before it is said
+ADDRESS = re.compile(r"((tcp|tls|ws|wss|ucx)://)?(\[[\da-fA-F:.]+\]|[\w.-]+):\d{1,5}")
 # Dask looks at itself a hundred times a second, which costs a twentieth of a core per worker
 UNWATCHED = {"distributed.worker.profile.enabled": False, "distributed.admin.tick.interval": "1s",
              "distributed.admin.system-monitor.interval": "5s"}
@@ -31,6 +36,7 @@ class Crew:
         self._processes: list[subprocess.Popen] = []
         self._started: list[float] = []
         self._failures = 0
+        self._staffed = monotonic()  # when there were workers last
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115  lives as long as the crew
         for _ in range(count):
             self._processes.append(self._worker())
@@ -40,6 +46,14 @@ class Crew:
     def capacity(self) -> int:
         """How many designs can be made at the same time now."""
         return sum(self.client.nthreads().values())
+
+    def missing(self) -> str | None:
+        """What to do where a scheduler has had no workers for some seconds, None where it has."""
+        if self._processes or self.capacity:
+            self._staffed = monotonic()
+        if monotonic() - self._staffed < SILENT_SECONDS:
+            return None
+        return f"the scheduler has no workers yet: start `dask worker {self.client.scheduler.address}`"
 
     def tend(self) -> None:
         """Start workers again that have ended; raises PlisseError where they cannot even start."""
@@ -81,8 +95,11 @@ def _end(process: subprocess.Popen) -> None:
 def crew(scheduler: str | None = None, workers: int | None = None) -> Iterator[Crew]:
     """Workers for a study: `workers` on this machine, one per core if not said, or those of a `scheduler` address.
 
-    Raises MissingExtra without Dask, PlisseError where the scheduler does not answer.
+    Raises MissingExtra without Dask, PlisseError where the scheduler does not answer or has no address.
     """
+    if scheduler is not None and not ADDRESS.fullmatch(scheduler):
+        raise PlisseError(f"--scheduler is {scheduler!r}; give an address of the form tcp://host:port, for example "
+                          "tcp://10.0.0.1:8786")
     distributed = optional("distributed", extra="sweep", purpose=PURPOSE)
     logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters is a row of the study
     if scheduler is None:
@@ -90,17 +107,26 @@ def crew(scheduler: str | None = None, workers: int | None = None) -> Iterator[C
             yield found
         return
     try:
+        with ThreadPoolExecutor(1) as aside:  # a notebook has a loop of its own here
+            aside.submit(asyncio.run, _asked(distributed, scheduler)).result()
         client = distributed.Client(scheduler, timeout=ANSWER_SECONDS, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
-        reason = f"{type(error).__name__}: {error}".splitlines()[0]
+        reason = f"{type(error).__name__}: {error}".splitlines()[0].rstrip(": ")
         raise PlisseError(f"no Dask scheduler answers at {scheduler} ({reason}); start one with `dask scheduler`, or leave "
                           "--scheduler out to work on this machine") from None
-    with client:
-        found = Crew(client)
-        try:
-            yield found
-        finally:
-            found.end()
+    found = Crew(client)
+    try:
+        yield found
+    finally:
+        found.end()
+        with suppress(OSError, TimeoutError):  # a scheduler that is gone need not be left
+            client.close()
+
+
+async def _asked(distributed, address: str) -> None:
+    """Wait for a scheduler to say who it is; a client would wait forever for other servers."""
+    async with asyncio.timeout(ANSWER_SECONDS), distributed.core.rpc(address, timeout=ANSWER_SECONDS) as server:
+        await server.identity()
 
 
 @contextmanager

@@ -2,7 +2,7 @@
 
 import sqlite3
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from plisse.study.numbers import NUMBERS
 from plisse.study.outcome import Outcome
 from plisse.study.samples import Sample
 
-__all__ = ["STORE", "Row", "Store", "locked"]
+__all__ = ["LOCK", "STORE", "Row", "Store", "locked"]
 
 STORE, LOCK = "study.sqlite", ".study.lock"
 WAITING, RUNNING = "waiting", "running"
@@ -45,15 +45,43 @@ class Row(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Store:
-    """The store of a study in a directory; raises PlisseError where the file is none."""
+    """The store of a study in a directory, made where there is none; with `reading` the file is not touched.
 
-    def __init__(self, directory: Path):
+    Raises PlisseError where the file is no store, and leaves it as it is.
+    """
+
+    def __init__(self, directory: Path, *, reading: bool = False):
         self._file = directory / STORE
-        self._base = sqlite3.connect(self._file, timeout=30, isolation_level=None)
         with self._sentence():
-            self._base.execute("PRAGMA journal_mode=WAL")
-            self._base.executescript(SCHEMA)
+            if reading or self._holds_tables():
+                self._base = self._opened_to_read()
+                self._check()
+            if not reading:
+                self._base = sqlite3.connect(self._file, timeout=30, isolation_level=None)
+                self._base.execute("PRAGMA journal_mode=WAL")
+                self._base.executescript(SCHEMA)
+                self._check()
+
+    def _opened_to_read(self) -> sqlite3.Connection:
+        """A connection that writes nothing; a file without a log beside it is whole, and may lie where nobody can write."""
+        log = self._file.with_name(f"{STORE}-wal")
+        whole = "" if log.exists() and log.stat().st_size else "&immutable=1"
+        return sqlite3.connect(f"{self._file.absolute().as_uri()}?mode=ro{whole}", uri=True, timeout=30,
+                               isolation_level=None)
+
+    def _holds_tables(self) -> bool:
+        if not self._file.exists():
+            return False
+        with closing(self._opened_to_read()) as base:
+            return base.execute("SELECT count(*) FROM sqlite_master").fetchone()[0] > 0
+
+    def _check(self) -> None:
+        """Raise where the table of designs is not ours."""
+        try:
             self._base.execute(f"SELECT {', '.join((*FACTS, *COLUMNS))} FROM designs LIMIT 0")
+        except sqlite3.Error:
+            self._base.close()
+            raise
 
     def __enter__(self) -> "Store":
         return self
@@ -98,8 +126,9 @@ class Store:
 
     def rows(self) -> list[Row]:
         """All designs in the order in which they were planned."""
-        found = self._base.execute(f"SELECT {', '.join((*FACTS, *COLUMNS))} FROM designs ORDER BY rowid")
-        return [_row(values) for values in found]
+        with self._sentence():
+            found = self._base.execute(f"SELECT {', '.join((*FACTS, *COLUMNS))} FROM designs ORDER BY rowid")
+            return [_row(values) for values in found]
 
     def counts(self) -> dict[str, int]:
         """How many designs have which status."""
@@ -130,8 +159,8 @@ class Store:
         try:
             yield
         except sqlite3.Error as error:
-            raise PlisseError(f"{self._file} is not the store of a study or cannot be written ({error}); choose another "
-                              "directory with -o") from None
+            raise PlisseError(f"{self._file} is not the store of a study, or cannot be read or written ({error}); choose "
+                              "another directory with -o") from None
 
 
 @contextmanager
@@ -140,17 +169,20 @@ def locked(directory: Path) -> Iterator[None]:
 
     The lock is SQLite's on an empty file: it works on every system and goes with the process that holds it.
     """
-    lock = sqlite3.connect(directory / LOCK, timeout=0, isolation_level=None)
+    lock = None
     try:
+        lock = sqlite3.connect(directory / LOCK, timeout=0, isolation_level=None)
         lock.execute("BEGIN EXCLUSIVE")
-    except sqlite3.OperationalError:
-        lock.close()
-        raise PlisseError(f"another study works in {directory}; wait until it is done, or choose another directory with "
+    except sqlite3.Error as error:
+        if lock is not None:
+            lock.close()
+        if getattr(error, "sqlite_errorcode", None) == sqlite3.SQLITE_BUSY:
+            raise PlisseError(f"another study works in {directory}; wait until it is done, or choose another directory with "
+                              "-o") from None
+        raise PlisseError(f"{directory / LOCK} cannot be locked ({error}); remove it, or choose another directory with "
                           "-o") from None
-    try:
+    with closing(lock):
         yield
-    finally:
-        lock.close()
 
 
 def _planned(sample: Sample) -> tuple[str, ...]:

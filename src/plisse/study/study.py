@@ -1,9 +1,11 @@
 """A study from its file to its pictures: plan, sweep, table, contact sheet, map."""
 
 import csv
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from plisse.draw.contact_sheet import MOST, Frame, write_contact_sheet
 from plisse.draw.region import Place, places, write_region
@@ -12,30 +14,44 @@ from plisse.io.atomic import require_writable, written
 from plisse.study.best import best, described, write_best
 from plisse.study.outcome import OUTCOMES
 from plisse.study.plan import Map, Plan, read_plan
-from plisse.study.samples import samples, value_at
-from plisse.study.store import COLUMNS, STORE, WAITING, Row, Store, locked
+from plisse.study.samples import Sample, samples, value_at
+from plisse.study.store import COLUMNS, LOCK, STORE, Row, Store, locked
+
+if TYPE_CHECKING:
+    from plisse.study.crew import Crew
 
 __all__ = ["FILES", "Row", "Study", "run"]
 
+AGAIN = ("timeout", "memory", "failed")
 FILES = (STORE, "results.csv", "contact-sheet.png", "map.png")
 Progress = Callable[[str, float], None]
 
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """A directory with the store of a study, its rows as they were read, and the small pictures of those on the sheet."""
+    """A directory with the store of a study, and its rows as they were read.
+
+    `others` counts designs of earlier studies in the same store: they are kept there, and count nowhere else.
+    """
 
     directory: Path
     rows: list[Row]
+    others: int = 0
 
     @classmethod
-    def load(cls, directory: str | Path) -> "Study":
-        """The study in a directory, finished or not; raises PlisseError where there is none."""
+    def load(cls, directory: str | Path, keys: Iterable[str] | None = None) -> "Study":
+        """The study in a directory, finished or not, of the designs with these keys or of all; nothing is written.
+
+        Raises PlisseError where there is none.
+        """
         directory = Path(directory)
         if not (directory / STORE).is_file():
             raise PlisseError(f"there is no study in {directory} ({STORE} is missing); run `plisse study STUDY.toml` first")
-        with Store(directory) as store:
-            return cls(directory, store.rows())
+        with Store(directory, reading=True) as store:
+            rows = store.rows()
+        wanted = {row.key for row in rows} if keys is None else set(keys)
+        own = [row for row in rows if row.key in wanted]
+        return cls(directory, own, len(rows) - len(own))
 
     @property
     def counts(self) -> dict[str, int]:
@@ -86,7 +102,7 @@ class Study:
         if len(shown) > MOST:
             shown = self.best(MOST, by=by)
             title += f", the best {len(shown)} by {by.replace('_', ' ')}"
-        with Store(self.directory) as store:
+        with Store(self.directory, reading=True) as store:
             pictures = store.pictures(row.key for row in shown)
         frames = [Frame(pictures.get(row.key), described(row), _verdict(row), row.status) for row in shown]
         with written(path) as aside:
@@ -108,28 +124,51 @@ def run(source: str | Path | dict, directory: str | Path | None = None, *, sched
     directory = Path(directory)
     planned = samples(plan)
     require_writable(directory, FILES)
-    directory.mkdir(parents=True, exist_ok=True)
-    with locked(directory):
-        _make(plan, planned, directory, scheduler, workers, retry, progress)
-        study = Study.load(directory)
-        _write_files(study, plan)
+    again = AGAIN if retry else ()
+    # workers first: where there are none, nothing is left behind
+    with _workers(_waiting(directory, planned, again), scheduler, workers, progress) as found:
+        directory.mkdir(parents=True, exist_ok=True)
+        with locked(directory):
+            _make(plan, planned, directory, again, found, progress)
+            study = Study.load(directory, [sample.key for sample in planned])
+            _write_files(study, plan)
     return study
 
 
-def _make(plan: Plan, planned: list, directory: Path, scheduler: str | None, workers: int | None, retry: bool,
-          progress: Progress | None) -> None:
+def _waiting(directory: Path, planned: list[Sample], again: Iterable[str]) -> int:
+    """How many designs are still to be made; raises PlisseError where somebody makes them now."""
+    done = set()
+    if (directory / LOCK).exists():
+        with locked(directory):
+            pass
+    if (directory / STORE).is_file() and (directory / STORE).stat().st_size:
+        with Store(directory) as store:
+            done = {row.key for row in store.rows() if row.status in OUTCOMES and row.status not in again}
+    return sum(sample.mistake is None and sample.key not in done for sample in planned)
+
+
+@contextmanager
+def _workers(waiting: int, scheduler: str | None, count: int | None, progress: Progress | None) -> Iterator["Crew | None"]:
+    """Workers for designs that wait; nobody where there are none."""
+    if not waiting:
+        yield None
+        return
     from plisse.study.crew import crew
+
+    if progress:
+        progress(f"starting workers for {waiting} designs", 0.0)
+    with crew(scheduler, None if count is None else min(count, waiting)) as found:
+        yield found
+
+
+def _make(plan: Plan, planned: list[Sample], directory: Path, again: Iterable[str], crew: "Crew | None",
+          progress: Progress | None) -> None:
     from plisse.study.sweep import sweep
 
     with Store(directory) as store:
-        store.plan(planned, again=("timeout", "memory", "failed") if retry else ())
-        waiting = store.counts().get(WAITING, 0)
-        if not waiting:
-            return
-        if progress:
-            progress(f"starting workers for {waiting} designs", 0.0)
-        with crew(scheduler, None if workers is None else min(workers, waiting)) as found:
-            sweep(found, store, plan.limits, forecast=plan.forecast, progress=progress)
+        store.plan(planned, again=again)
+        if crew is not None:
+            sweep(crew, store, plan.limits, forecast=plan.forecast, progress=progress)
 
 
 def _write_files(study: Study, plan: Plan) -> None:

@@ -46,7 +46,8 @@ def sweep(crew: Crew, store: Store, limits: Limits, *, forecast: bool = False, p
             done += 1
             start = start or monotonic() - outcome.seconds
         if progress:
-            progress(_said(done, total, 0.0 if start is None else monotonic() - start), done / max(total, 1))
+            said = _said(done, total, 0.0 if start is None else monotonic() - start)
+            progress(crew.missing() or said, done / max(total, 1))
 
 
 def _finished(client, futures: list) -> list:

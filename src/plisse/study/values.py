@@ -49,7 +49,8 @@ class Bounds(Strict, kw_only=True, frozen=True):
         """The value that far between the bounds, `share` in 0…1; steps get equal parts of it."""
         if self.step is not None:
             count = math.floor((self.high - self.low) / self.step + 1e-9) + 1
-            return self.low + min(int(share * count), count - 1) * self.step
+            value = self.low + min(int(share * count), count - 1) * self.step
+            return value if isinstance(value, int) else _short(value)
         if self.scale == "log":
             return _short(self.low * (self.high / self.low) ** share)
         return _short(self.low + (self.high - self.low) * share)
@@ -131,6 +132,8 @@ def _checked(key: str, bounds: Bounds) -> Bounds:
         raise InvalidDesign(f"vary.{key} has low = {bounds.low} and high = {bounds.high}; low must be below high")
     if bounds.step is not None and not bounds.step > 0:
         raise InvalidDesign(f"vary.{key}.step is {bounds.step}; give a number above 0")
+    if bounds.step is not None and bounds.scale == "log":
+        raise InvalidDesign(f"vary.{key} has both a step and a logarithmic scale; leave one of them out")
     if bounds.scale == "log" and not bounds.low > 0:
         raise InvalidDesign(f"vary.{key} has a logarithmic scale, but low = {bounds.low}; give a number above 0")
     return bounds
