@@ -20,12 +20,12 @@ from pathlib import Path
 
 from machine import machine
 from page import publish
+from plisse.threads import LIBRARIES
 
 HERE = Path(__file__).parent
 SUBJECTS = ("figure21", "methods", "scipy_solver", "growth", "factorisation", "marching", "tracing", "flattening", "motion",
             "startup")
 ON_DEMAND = ("studies", "studio")
-THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -66,7 +66,7 @@ def _measured(name: str, quick: bool) -> dict | None:
     """What a subject found, with when and how long; None where it failed, its message being on stderr."""
     load, begun = os.getloadavg()[0], time.perf_counter()
     done = subprocess.run([sys.executable, str(HERE / f"{name}.py"), *["--quick"] * quick], stdout=subprocess.PIPE,
-                          text=True, env={**os.environ, **dict.fromkeys(THREADS, "1")})
+                          text=True, env={**os.environ, **dict.fromkeys(LIBRARIES, "1")})
     if done.returncode:
         return None
     return {"date": date.today().isoformat(), "seconds": round(time.perf_counter() - begun, 1), "load": round(load, 2),

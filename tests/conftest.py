@@ -1,9 +1,8 @@
 """Structures that are exact by formula, for every test that needs one."""
 
-import os
+from plisse.threads import bind_threads
 
-for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
-    os.environ.setdefault(name, "1")  # one thread per worker, before numpy is imported
+bind_threads()  # one thread per worker, before numpy is imported
 
 import numpy as np
 import pytest

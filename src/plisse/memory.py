@@ -5,12 +5,12 @@ from pathlib import Path
 
 from plisse.errors import InvalidDesign
 
-__all__ = ["CHOSEN", "available_bytes", "peak_bytes", "refuse_too_large"]
+__all__ = ["CHOSEN", "LARGEST_FACTOR", "available_bytes", "peak_bytes", "refuse_too_large"]
 
 CHOSEN = "PLISSE_MEMORY"  # a limit in GB
 PROGRAM = 110e6  # libraries and code
 PER_VERTEX = 3200.0  # positions, topology, sparsity patterns, Jacobians
-LARGEST_FACTOR = 1.2e9  # wider bands are factorised sparsely
+LARGEST_FACTOR = 1.2e9  # bytes; wider bands are factorised sparsely
 GB = 1e9
 
 

@@ -15,6 +15,7 @@ from plisse.designs.varied import varied
 from plisse.errors import Infeasible
 from plisse.io.designs import checked_design
 from plisse.layout.guiding import Guiding, guiding
+from plisse.measure.shape import Shape
 from plisse.recipe import AsymptoticDesign, Curve, Design, March, Recipe, SurfaceDesign
 from plisse.result import Report, Result
 from plisse.solve.attempt import Start
@@ -25,7 +26,7 @@ from plisse.solve.flatten import flatten, laid_out
 from plisse.solve.forecast import forecast
 from plisse.solve.marching import marched_design
 from plisse.solve.paper import solve_paper
-from plisse.solve.portfolio import CONSTRUCTED_ONLY, GENERAL, OPTIMISED_ONLY, PRINCIPAL, SECOND_CHANCE, Judged, Way, solve
+from plisse.solve.portfolio import CONSTRUCTED_ONLY, GENERAL, OPTIMISED_ONLY, PRINCIPAL, SECOND_CHANCE, Way, solve
 from plisse.solve.workspace import Workspace
 from plisse.solve.zigzag import zigzag
 from plisse.stopwatch import Stopwatch
@@ -116,7 +117,8 @@ def _exactly(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, watch:
     watch.start("flatten", 0.6)
     structure = PleatedStructure(best.start.topology, best.attempt.vertices)
     structure = flatten(structure, best_cut(structure, recipe.solve.cut), workspace)
-    report = _measured(recipe, best.start.guides(best.start.samples), guide.amplitude, structure, watch, best)
+    report = _measured(recipe, best.start.guides(best.start.samples), guide.amplitude, structure, watch, best.shape,
+                       best.astray)
     # predictions about rulings are of no interest once a comfortable structure refutes them
     foreseen = ahead.warnings_of_openings() if best.is_comfortable and not report.reasons else ahead.warnings()
     warnings = guide.notes + _notes(best.start, guide) + overlap_notes(report)
@@ -143,10 +145,10 @@ def _by_the_paper(recipe: Design, guide: Guiding, zigzagged: PleatedStructure, w
 
 
 def _measured(recipe: Design, guides: np.ndarray, amplitude: float, structure: PleatedStructure,
-              watch: Stopwatch, judged: Judged | None = None) -> Report:
+              watch: Stopwatch, shape: Shape | None = None, astray: np.ndarray | None = None) -> Report:
     watch.start("measure", 0.8)
     report = assess(structure, principal=recipe.solve.principal, guides=guides, amplitude=amplitude, units=recipe.units,
-                    shape=None if judged is None else judged.shape, astray=None if judged is None else judged.astray)
+                    shape=shape, astray=astray)
     return msgspec.structs.replace(report, seconds=watch.stop(), design=recipe.to_dict())
 
 

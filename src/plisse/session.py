@@ -32,8 +32,7 @@ class Session:
 
         A value None brings a key's default back. Keys that stand in one section only need not name it.
         """
-        every = changes or {}
-        return self.open(changed(self.recipe, {**every, **values} if isinstance(every, dict) else every), progress=progress)
+        return self.open(changed(self.recipe, changes or {}, **values), progress=progress)
 
     def open(self, recipe: Recipe | dict | str | Path, *, progress: Progress | None = None) -> Result:
         """The structure of another recipe, on the patterns that are kept."""
@@ -43,20 +42,17 @@ class Session:
         return result
 
 
-def changed(recipe: Recipe, changes: dict) -> Recipe:
+def changed(recipe: Recipe, changes: dict, /, **values) -> Recipe:
     """The checked recipe after changes, named as in `Session.update`; raises InvalidDesign where there is none."""
     if not isinstance(changes, dict):
         raise InvalidDesign(f'changes are {changes!r}; give a dictionary as in {{"pattern.theta": 30}}, or theta=30')
     data = recipe.to_dict()
-    for name, value in changes.items():
+    for name, value in {**changes, **values}.items():
         section, key = _place(recipe, name)
-        place = data if section is None else data.get(section, {})
         if value is None:
-            place.pop(key, None)
+            (data if section is None else data.get(section, {})).pop(key, None)
         else:
-            place[key] = value
-            if section is not None:
-                data[section] = place
+            (data if section is None else data.setdefault(section, {}))[key] = value
     return design_from_dict(data)
 
 

@@ -40,7 +40,7 @@ from plisse.structure.triangles import triangulated
 
 __all__ = ["along_asymptotic_curves"]
 
-MOST_TWIST = 8.0, 4.0  # τ/κ beside the legs of singularities, and where that fails
+LEG_TWIST = 8.0, 4.0  # τ/κ beside the legs of singularities, and where that fails
 COARSE = 12  # columns along a leg with which a structure is sought
 LITTLE = 0.3  # of the surface, under a structure
 ENDS = {Stop.BOUNDARY: "at the boundary", Stop.PARABOLIC: "at a parabolic curve", Stop.LENGTH: "at their greatest length"}
@@ -59,7 +59,7 @@ def along_asymptotic_curves(recipe: AsymptoticDesign, watch: Stopwatch, workspac
         whole = _laid_out(chart, recipe, sizes)
         amplitude = 0.5 * whole.width if pattern.amplitude is None else pattern.amplitude
         refuse_unlike_amplitude(whole, amplitude)
-        layout = _cut(whole, MOST_TWIST[0])
+        layout = _cut(whole, LEG_TWIST[0])
         refuse_twist(layout, amplitude)
         watch.start("solve", 0.3)
         found, tried = _solved(whole, layout, amplitude, workspace)
@@ -108,7 +108,7 @@ def _solved(whole: AsymptoticLayout, layout: AsymptoticLayout, amplitude: float,
     if found.is_sound:
         return found, tried
     try:
-        shorter = _cut(whole, MOST_TWIST[1])
+        shorter = _cut(whole, LEG_TWIST[1])
     except Infeasible:
         return found, tried
     if len(shorter.net.columns) == len(layout.net.columns):
@@ -127,7 +127,7 @@ def _refined(found: Raised, rounds: int, workspace: Workspace, watch: Stopwatch)
             watch.start("solve", 0.37 + 0.3 * done / rounds)
             after = finer(found, layout, workspace)
         except Infeasible:
-            return found, done
+            after = None
         if after is None:
             return found, done
         found = after

@@ -18,7 +18,7 @@ from plisse.geometry.mesh import ReferenceMesh, grid_mesh
 from plisse.geometry.parametric import ParametricSurface
 from plisse.geometry.surface import Surface as Reference
 from plisse.io.meshes import read_mesh
-from plisse.layout.coverage import AreaSamples, covered
+from plisse.layout.coverage import AreaSamples, covered, reach_of
 from plisse.layout.positions import refuse_too_many, upright_amplitude
 from plisse.layout.rows import ChartedSurface
 from plisse.measure.inclination import crease_inclinations, overhanging
@@ -198,8 +198,7 @@ def lies_over(structure: PleatedStructure, mesh: ReferenceMesh, surface: Referen
     """Fraction of the mesh's area under a structure, and the distance of its mid-surface."""
     quads = structure.topology.quads
     samples = AreaSamples.of(mesh.vertices, mesh.triangles)
-    reach = 3 * amplitude + 3 * structure.mean_edge
-    return (covered(samples, structure.vertices, quads, reach),
+    return (covered(samples, structure.vertices, quads, reach_of(amplitude, structure.mean_edge)),
             mid_surface_deviation(surface, structure.vertices, quads))
 
 

@@ -6,8 +6,9 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from plisse.geometry.chart import Chart, ChartPoints
-from plisse.geometry.mesh import ReferenceMesh, grid_mesh
+from plisse.geometry.bending import bending
+from plisse.geometry.chart import Chart
+from plisse.geometry.mesh import ReferenceMesh, grid_lines, grid_mesh
 from plisse.geometry.surface import SurfacePoints
 from plisse.geometry.vectors import dot
 
@@ -50,7 +51,7 @@ class ChartSurface:
         inner = (np.minimum(places.real - low.real, high.real - places.real) > edge) \
             & (np.minimum(places.imag - low.imag, high.imag - places.imag) > edge)
         found = self.chart.at(places)
-        return SurfacePoints(self.chart.positions(places), found.normals, _bending(found), inner)
+        return SurfacePoints(self.chart.positions(places), found.normals, bending(found.partials, found.second), inner)
 
     @cached_property
     def _seeds(self) -> tuple[cKDTree, np.ndarray]:
@@ -59,10 +60,7 @@ class ChartSurface:
 
     def _grid(self, cells: int) -> np.ndarray:
         low, high = self.chart.domain
-        width, depth = high.real - low.real, high.imag - low.imag
-        size = max(width, depth) / cells
-        u = np.linspace(low.real, high.real, max(4, round(width / size)) + 1)
-        v = np.linspace(low.imag, high.imag, max(4, round(depth / size)) + 1)
+        u, v = grid_lines((low.real, high.real), (low.imag, high.imag), cells)
         return u[:, None] + 1j * v
 
 
@@ -78,13 +76,3 @@ def _towards(chart: Chart, places: np.ndarray, points: np.ndarray) -> np.ndarray
     one, mixed, two = (np.where(convex, full, plain) for full, plain in ((one, e), (mixed, f), (two, g)))
     size = np.maximum(one * two - mixed**2, np.finfo(float).tiny)
     return (two * right[0] - mixed * right[1]) / size + 1j * (one * right[1] - mixed * right[0]) / size
-
-
-def _bending(points: ChartPoints) -> np.ndarray:
-    """Second fundamental tensors (N, 3, 3)."""
-    (e, f, g), (xu, xv) = points.metric, points.partials
-    size = np.maximum(e * g - f**2, np.finfo(float).tiny)[:, None]
-    dual = np.stack([(g[:, None] * xu - f[:, None] * xv) / size, (e[:, None] * xv - f[:, None] * xu) / size], axis=1)
-    one, mixed, two = points.second
-    second = np.stack([np.stack([one, mixed], axis=-1), np.stack([mixed, two], axis=-1)], axis=-2)
-    return dual.swapaxes(-1, -2) @ second @ dual

@@ -8,7 +8,7 @@ import numpy as np
 
 from plisse.errors import InvalidDesign
 from plisse.geometry.expression import height_expression
-from plisse.geometry.mesh import ReferenceMesh, grid_mesh
+from plisse.geometry.mesh import ReferenceMesh, grid_lines, grid_mesh
 from plisse.geometry.monge import monge
 from plisse.geometry.surface import SurfacePoints
 from plisse.geometry.vectors import norm
@@ -68,8 +68,5 @@ class HeightField:
         return grid_mesh(np.stack([x, y, z], axis=-1))
 
     def _grid(self, cells: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        width, depth = float(np.ptp(self.x)), float(np.ptp(self.y))
-        size = max(width, depth) / cells
-        x, y = np.meshgrid(np.linspace(*self.x, max(4, round(width / size)) + 1),
-                           np.linspace(*self.y, max(4, round(depth / size)) + 1), indexing="ij")
+        x, y = np.meshgrid(*grid_lines(self.x, self.y, cells), indexing="ij")
         return x, y, self._heights(x, y)[0].reshape(x.shape)

@@ -125,6 +125,13 @@ class ReferenceMesh:
         return float(norm(np.roll(points, -1, axis=0) - points).sum())
 
 
+def grid_lines(x: tuple[float, float], y: tuple[float, float], cells: int) -> tuple[np.ndarray, np.ndarray]:
+    """Coordinates of a grid of nearly square cells over a rectangle, `cells` along its longer side and at least four."""
+    width, depth = x[1] - x[0], y[1] - y[0]
+    size = max(width, depth) / cells
+    return np.linspace(*x, max(4, round(width / size)) + 1), np.linspace(*y, max(4, round(depth / size)) + 1)
+
+
 def grid_mesh(points: np.ndarray, closed: tuple[bool, bool] = (False, False)) -> ReferenceMesh:
     """Triangulated grid (m, n, 3), `closed` in its first or second direction; normals along ∂₁ × ∂₂.
 

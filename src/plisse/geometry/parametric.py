@@ -8,6 +8,7 @@ from scipy.interpolate import NdBSpline
 from scipy.spatial import cKDTree
 
 from plisse.errors import Infeasible
+from plisse.geometry.bending import bending, symmetric
 from plisse.geometry.conformal import flattened_sheet, flattened_tube, stretches
 from plisse.geometry.mesh import ReferenceMesh
 from plisse.geometry.outline import Outline
@@ -68,7 +69,8 @@ class ParametricSurface:
         """The surface at chart coordinates (N, 2)."""
         position, *partials = self._derivatives(places)
         normals = unit(np.cross(partials[0], partials[1]))
-        return SurfacePoints(position, normals, _bending(partials, normals), self._is_known(places))
+        second = [dot(part, normals) for part in partials[2:]]
+        return SurfacePoints(position, normals, bending(partials[:2], second), self._is_known(places))
 
     def project(self, points: np.ndarray) -> SurfacePoints:
         """Closest points to points (N, 3), on the continuation too."""
@@ -133,8 +135,8 @@ class ParametricSurface:
             position, xu, xv, xuu, xuv, xvv = self._derivatives(places)
             gap = points - position
             first = np.stack([dot(gap, xu), dot(gap, xv)], axis=-1)
-            metric = _symmetric(dot(xu, xu), dot(xu, xv), dot(xv, xv))
-            matrix = metric - _symmetric(dot(gap, xuu), dot(gap, xuv), dot(gap, xvv))
+            metric = symmetric(dot(xu, xu), dot(xu, xv), dot(xv, xv))
+            matrix = metric - symmetric(dot(gap, xuu), dot(gap, xuv), dot(gap, xvv))
             safe = (np.linalg.det(matrix) > 0.1 * np.linalg.det(metric)) & (np.trace(matrix, axis1=1, axis2=2) > 0)
             step = np.linalg.solve(np.where(safe[:, None, None], matrix, metric), first[..., None])[..., 0]
             step *= np.minimum(1, np.where(safe, 10, 1) * longest / np.maximum(norm(step), 1e-300))[:, None]
@@ -188,16 +190,3 @@ def _is_simple(mesh: ReferenceMesh, places: np.ndarray) -> bool:
 
     loops = sorted((places[loop] for loop in mesh.boundary_loops), key=lambda loop: -float(np.prod(np.ptp(loop, axis=0))))
     return bool(Polygon(loops[0], loops[1:]).is_valid)
-
-
-def _symmetric(one: np.ndarray, two: np.ndarray, three: np.ndarray) -> np.ndarray:
-    return np.stack([np.stack([one, two], axis=-1), np.stack([two, three], axis=-1)], axis=-2)
-
-
-def _bending(partials: list[np.ndarray], normals: np.ndarray) -> np.ndarray:
-    """Bending tensors (N, 3, 3) from X_u, X_v, X_uu, X_uv, X_vv (N, 3)."""
-    xu, xv, xuu, xuv, xvv = partials
-    tangents = np.stack([xu, xv], axis=-2)
-    dual = np.linalg.solve(_symmetric(dot(xu, xu), dot(xu, xv), dot(xv, xv)), tangents)
-    second = _symmetric(dot(xuu, normals), dot(xuv, normals), dot(xvv, normals))
-    return dual.swapaxes(-1, -2) @ second @ dual

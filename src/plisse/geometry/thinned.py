@@ -4,7 +4,7 @@ import numpy as np
 from scipy.spatial import Delaunay
 
 from plisse.geometry.mesh import ReferenceMesh
-from plisse.geometry.vectors import unit
+from plisse.geometry.vectors import cross_flat, norm, unit
 
 __all__ = ["thinned"]
 
@@ -29,7 +29,7 @@ def thinned(mesh: ReferenceMesh) -> ReferenceMesh:
     count = np.bincount(owner)
     means = np.stack([np.bincount(owner, values) / count for values in plane.T], axis=1)
     triangles = Delaunay(means[:, :2]).simplices
-    sides = np.linalg.norm(means[triangles][:, :, :2] - means[np.roll(triangles, 1, axis=1)][:, :, :2], axis=2)
+    sides = norm(means[triangles][:, :, :2] - means[np.roll(triangles, 1, axis=1)][:, :, :2])
     triangles = triangles[sides.max(axis=1) < LONGEST * size]
     turned = _doubled_areas(means, triangles) < 0
     triangles[turned] = triangles[turned][:, ::-1]
@@ -40,7 +40,7 @@ def thinned(mesh: ReferenceMesh) -> ReferenceMesh:
 def _doubled_areas(plane: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Twice the signed areas (T,) of triangles in the plane of the first two coordinates."""
     a, b, c = plane[triangles].transpose(1, 0, 2)
-    return (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+    return cross_flat(b - a, c - a)
 
 
 def _frame(mesh: ReferenceMesh) -> np.ndarray:

@@ -7,7 +7,7 @@ from scipy.spatial import cKDTree
 
 from plisse.geometry.vectors import cross_flat, dot, norm, unit
 
-__all__ = ["AreaSamples", "covered", "located"]
+__all__ = ["AreaSamples", "covered", "located", "reach_of"]
 
 NEIGHBOURS = 12  # centres of quads among which the one that covers a point is sought
 SLIMNESS = 4  # further centres per unit of length over width
@@ -60,6 +60,11 @@ def located(samples: AreaSamples, quads: np.ndarray, reach: float) -> np.ndarray
         hit = _contains(plane[:, [0, 1, 2]]) | _contains(plane[:, [0, 2, 3]])
         found[open_[hit]] = column[open_[hit]]
     return found
+
+
+def reach_of(amplitude: float, mean_edge: float) -> float:
+    """How far from a reference a structure over it can be, in model units."""
+    return 3 * amplitude + 3 * mean_edge
 
 
 def covered(samples: AreaSamples, vertices: np.ndarray, quads: np.ndarray, reach: float) -> float:

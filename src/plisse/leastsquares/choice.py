@@ -5,6 +5,7 @@ from plisse.leastsquares.factor import Factoriser
 from plisse.leastsquares.gram import GramPattern
 from plisse.leastsquares.sparse import Sparse
 from plisse.leastsquares.supernodal import Supernodal
+from plisse.memory import LARGEST_FACTOR
 
 __all__ = ["factoriser"]
 
@@ -12,7 +13,6 @@ __all__ = ["factoriser"]
 REORDERED = 1e4  # from here on a search for a narrower band costs little beside one factorisation
 SUPERNODAL = 1.5e4  # rslab is faster, its analysis included
 SPARSE = 5e4  # SuperLU is faster
-MAX_BAND_BYTES = 1.2e9
 
 
 def factoriser(pattern: GramPattern) -> Factoriser:
@@ -25,4 +25,4 @@ def factoriser(pattern: GramPattern) -> Factoriser:
             return Supernodal(pattern)
         except ImportError:
             pass
-    return Banded(band) if band.operations < SPARSE and band.bytes < MAX_BAND_BYTES else Sparse(pattern)
+    return Banded(band) if band.operations < SPARSE and band.bytes < LARGEST_FACTOR else Sparse(pattern)

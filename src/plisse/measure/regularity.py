@@ -25,6 +25,12 @@ class Regularity:
     max_opening: float
     inverted: int
 
+    @classmethod
+    def of(cls, sectors: np.ndarray, openings: np.ndarray, inverted: np.ndarray) -> "Regularity":
+        """From all of them; without inner creases openings count as half open (π/2)."""
+        opening = openings if len(openings) else np.array([np.pi / 2])
+        return cls(float(sectors.min()), float(opening.min()), float(opening.max()), int(inverted.sum()))
+
     @property
     def is_regular(self) -> bool:
         """Whether every limit of the contract is kept."""
@@ -33,12 +39,9 @@ class Regularity:
 
 
 def regularity(topology: Topology, vertices: np.ndarray) -> Regularity:
-    """Regularity of a structure; without inner creases openings count as half open (π/2)."""
-    opening = crease_opening_angles(topology, vertices)
-    if len(opening) == 0:
-        opening = np.array([np.pi / 2])
-    return Regularity(float(sector_angles(topology, vertices).min()), float(opening.min()), float(opening.max()),
-                      int(inverted_faces(topology, vertices).sum()))
+    """Regularity of a structure."""
+    return Regularity.of(sector_angles(topology, vertices), crease_opening_angles(topology, vertices),
+                         inverted_faces(topology, vertices))
 
 
 def inverted_faces(topology: Topology, vertices: np.ndarray) -> np.ndarray:

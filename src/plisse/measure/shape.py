@@ -59,6 +59,5 @@ class Shape:
 
     @property
     def regularity(self) -> Regularity:
-        """What makes an exact mesh foldable; without inner creases openings count as half open (π/2)."""
-        opening = self.openings if len(self.openings) else np.array([np.pi / 2])
-        return Regularity(float(self.sectors.min()), float(opening.min()), float(opening.max()), int(self.inverted.sum()))
+        """What makes an exact mesh foldable."""
+        return Regularity.of(self.sectors, self.openings, self.inverted)

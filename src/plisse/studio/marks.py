@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from plisse.geometry.curves import seed_curve
-from plisse.layout.coverage import AreaSamples, located
+from plisse.layout.coverage import AreaSamples, located, reach_of
 from plisse.recipe import MILLIMETRES, Recipe
 from plisse.result import Report, Result
 from plisse.structure.front import front_up
@@ -43,7 +43,7 @@ def reference_of(result: Result) -> Reference | None:
     covered = np.ones(len(mesh.triangles), bool)
     if result.overlay is not None and result.structure is not None:
         structure = result.structure
-        reach = 3 * result.overlay.amplitude + 3 * structure.mean_edge
+        reach = reach_of(result.overlay.amplitude, structure.mean_edge)
         middles = AreaSamples.of(mesh.vertices, mesh.triangles, levels=0)
         covered = located(middles, structure.vertices[structure.topology.quads], reach) >= 0
     return Reference(mesh.vertices.astype(np.float32), mesh.triangles.astype(np.uint32), covered)

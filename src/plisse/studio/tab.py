@@ -23,7 +23,7 @@ from plisse.studio.scene import Scene
 from plisse.studio.status import broken, refused, remark, solved, working
 from plisse.studio.uploads import Uploads
 from plisse.studio.worker import Worker
-from plisse.transform.collisions import FreeRange
+from plisse.transform.collisions import DESIGNED, FreeRange
 
 if TYPE_CHECKING:
     from viser import ClientHandle
@@ -44,7 +44,7 @@ class Tab:
         self.found: Found | None = None
         self.colour = ""
         self.solid: tuple[str, float] = "", 0.0
-        self.percent = 100.0
+        self.percent = DESIGNED
         self.is_open = True
         self._framed = self._is_refused = False
         self._rest: asyncio.TimerHandle | None = None
@@ -244,7 +244,7 @@ class Tab:
         if not request.drafted:
             self._pace.learn(found, seconds)
         self.found, self.free = found, None
-        self.percent = 100.0
+        self.percent = DESIGNED
         if found.folded is None and not (request.framed and found.reference is not None):
             self.scene.pale()
         else:
@@ -270,8 +270,8 @@ class Tab:
 
     def _stand_still(self) -> None:
         """Go back to the structure as it was designed, and show it as it is chosen."""
-        if self.percent != 100.0:
-            self.percent = 100.0
+        if self.percent != DESIGNED:
+            self.percent = DESIGNED
             self.panels.refresh()
         self._dress()
 
@@ -279,7 +279,7 @@ class Tab:
         """Show the structure as it is chosen: in a state of its motion, as plates or an offset, in colours, or as paper."""
         if self.found is None or self.found.folded is None:
             pass  # what is pale stays as it is
-        elif self.percent != 100.0:
+        elif self.percent != DESIGNED:
             self._hands.ask(Pose(self.desk.solvable, self.percent))
         elif self.solid[0]:
             self._hands.ask(Solid(self.desk.solvable, *self.solid))

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 import shapely
 
+from plisse.geometry.polyline import arc_length
 from plisse.layout.stops import Stop
 
 __all__ = ["BETWEEN", "Leaf", "Steps", "hermite"]
@@ -77,7 +78,7 @@ class Leaf:
     @cached_property
     def arc(self) -> np.ndarray:
         """Length (S,) in space up to the samples."""
-        return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(self.points, axis=0), axis=1))])
+        return arc_length(self.points)
 
     @property
     def length(self) -> float:

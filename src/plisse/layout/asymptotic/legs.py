@@ -5,7 +5,7 @@ import shapely
 
 from plisse.layout.asymptotic.bends import Bends
 from plisse.layout.asymptotic.overlay import Net
-from plisse.layout.asymptotic.rays import Ray, as_line, crossings
+from plisse.layout.asymptotic.rays import Ray, crossings
 
 __all__ = ["kept_columns"]
 
@@ -37,6 +37,6 @@ def kept_columns(net: Net, points: np.ndarray, bends: Bends, legs: tuple[Ray, ..
 def _pairs_on_leg(net: Net, pairs: np.ndarray, leg: Ray) -> np.ndarray:
     """Numbers of the rulings that cross a leg."""
     ends = np.stack([net.places[pairs].real, net.places[pairs].imag], axis=-1)
-    line = as_line(leg.leaf)
+    line = shapely.linestrings(np.column_stack([leg.leaf.places.real, leg.leaf.places.imag]))
     shapely.prepare(line)
     return np.flatnonzero(shapely.intersects(line, shapely.linestrings(ends)))

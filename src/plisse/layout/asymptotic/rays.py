@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 
 from plisse.layout.asymptotic.crossings import met
 from plisse.layout.asymptotic.curves import Limits, trace_leaves
@@ -11,7 +10,7 @@ from plisse.layout.asymptotic.directions import Directions, Field
 from plisse.layout.asymptotic.leaf import Leaf, Steps
 from plisse.layout.asymptotic.singularities import Singularity, radial_directions
 
-__all__ = ["Ray", "as_line", "crossings", "rays"]
+__all__ = ["Ray", "crossings", "rays"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,8 +40,3 @@ def crossings(leaf: Leaf, others: list[Leaf]) -> np.ndarray:
     found = met([leaf], others)
     reached[found.other] = np.interp(found.on_one, leaf.plane, leaf.arc)
     return reached
-
-
-def as_line(leaf: Leaf) -> shapely.LineString:
-    """The curve as a line of the plane."""
-    return shapely.LineString(np.column_stack([leaf.places.real, leaf.places.imag]))
