@@ -13,16 +13,19 @@ from typing import TYPE_CHECKING
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
+    from plisse.errors import Infeasible, InvalidDesign, InvalidStructure, PlisseError
     from plisse.pipeline import design
     from plisse.recipe import Design
     from plisse.result import Report, Result
     from plisse.session import Session
     from plisse.structure.pleated import PleatedStructure
 
-__all__ = ["Design", "PleatedStructure", "Report", "Result", "Session", "__version__", "design"]
+__all__ = ["Design", "Infeasible", "InvalidDesign", "InvalidStructure", "PleatedStructure", "PlisseError", "Report",
+           "Result", "Session", "__version__", "design"]
 
 _HOMES = {"Design": "plisse.recipe", "PleatedStructure": "plisse.structure.pleated", "Report": "plisse.result",
-          "Result": "plisse.result", "Session": "plisse.session", "design": "plisse.pipeline"}
+          "Result": "plisse.result", "Session": "plisse.session", "design": "plisse.pipeline",
+          **dict.fromkeys(("Infeasible", "InvalidDesign", "InvalidStructure", "PlisseError"), "plisse.errors")}
 
 
 def __getattr__(name: str):
