@@ -1,6 +1,8 @@
 """Hidden surfaces: triangles into a depth buffer, all of them at the same time."""
 
 from dataclasses import dataclass
+from functools import reduce
+from itertools import product
 
 import numpy as np
 
@@ -94,8 +96,8 @@ def _chunks(ends: np.ndarray):
 
 def averaged(image: np.ndarray, block: int) -> np.ndarray:
     """Blocks of pixels (H, W, 4) averaged, colours weighted by opacity."""
-    height, width = image.shape[0] // block, image.shape[1] // block
-    blocks = image.reshape(height, block, width, block, 4)
-    opacity = blocks[..., 3:].sum(axis=(1, 3))
-    colour = (blocks[..., :3] * blocks[..., 3:]).sum(axis=(1, 3)) / np.maximum(opacity, 1e-6)
-    return np.concatenate([colour, opacity / block**2], axis=-1)
+    weighted = np.concatenate([image[..., :3] * image[..., 3:], image[..., 3:]], axis=-1)
+    # far faster than a mean over two axes
+    total = reduce(np.add, (weighted[row::block, column::block] for row, column in product(range(block), repeat=2)))
+    colour = total[..., :3] / np.maximum(total[..., 3:], 1e-6)
+    return np.concatenate([colour, total[..., 3:] / block**2], axis=-1)

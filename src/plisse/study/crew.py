@@ -22,6 +22,7 @@ PATIENCE = 10.0  # seconds within which a worker that ends has not worked at all
 FAILURES = 5
 ANSWER_SECONDS = 20.0
 SILENT_SECONDS = 5.0  # without workers, before it is said
+COUNT_EVERY = 0.5  # seconds between looks at how many workers there are
 ADDRESS = re.compile(r"((tcp|tls|ws|wss|ucx)://)?(\[[\da-fA-F:.]+\]|[\w.-]+):\d{1,5}")
 # Dask looks at itself a hundred times a second, which costs a twentieth of a core per worker
 UNWATCHED = {"distributed.worker.profile.enabled": False, "distributed.admin.tick.interval": "1s",
@@ -37,6 +38,7 @@ class Crew:
         self._started: list[float] = []
         self._failures = 0
         self._staffed = monotonic()  # when there were workers last
+        self._counted, self._capacity = float("-inf"), 0
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115  lives as long as the crew
         for _ in range(count):
             self._processes.append(self._worker())
@@ -44,8 +46,10 @@ class Crew:
 
     @property
     def capacity(self) -> int:
-        """How many designs can be made at the same time now."""
-        return sum(self.client.nthreads().values())
+        """How many designs can be made at the same time, as it was counted less than half a second ago."""
+        if monotonic() - self._counted > COUNT_EVERY or not self._capacity:
+            self._counted, self._capacity = monotonic(), sum(self.client.nthreads().values())
+        return self._capacity
 
     def missing(self) -> str | None:
         """What to do where a scheduler has had no workers for some seconds, None where it has."""

@@ -156,7 +156,7 @@ def _workers(waiting: int, scheduler: str | None, count: int | None, progress: P
     from plisse.study.crew import crew
 
     if progress:
-        progress(f"starting workers for {waiting} designs", 0.0)
+        progress(f"{'starting workers' if scheduler is None else f'asking {scheduler}'} for {waiting} designs", 0.0)
     with crew(scheduler, None if count is None else min(count, waiting)) as found:
         yield found
 

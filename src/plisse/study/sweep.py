@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Callable
+from queue import Empty, SimpleQueue
 from time import monotonic
 
 from plisse.errors import PlisseError
@@ -14,7 +15,7 @@ from plisse.study.store import Store
 __all__ = ["sweep"]
 
 ATTEMPTS = 3
-LOOK_EVERY = 0.5
+LOOK_EVERY, NO_WORKER = 0.5, 0.05  # seconds between looks at what happens besides
 
 Progress = Callable[[str, float], None]
 
@@ -27,21 +28,28 @@ def sweep(crew: Crew, store: Store, limits: Limits, *, forecast: bool = False, p
     waiting = store.waiting()[::-1]
     total, done, lost = len(waiting), 0, Counter[str]()
     start: float | None = None  # when the first design that is done was begun: workers take a while to start
-    running: dict = {}
-    while waiting or running:
-        crew.tend()
+    running: dict[str, tuple] = {}  # future and recipe
+    ended: SimpleQueue[str] = SimpleQueue()
+
+    def hand_out() -> None:
         while waiting and len(running) < crew.capacity:
             key, recipe = waiting.pop()
             store.begun(key)
             future = crew.client.submit(made, recipe, limits, forecast, pure=False, key=f"{key}-{total}-{lost[key]}")
-            running[future] = key, recipe
-        for future in _finished(crew.client, list(running)):
-            key, recipe = running.pop(future)
+            running[key] = future, recipe
+            future.add_done_callback(lambda _, key=key: ended.put(key))
+
+    while waiting or running:
+        crew.tend()
+        hand_out()
+        for key in _taken(ended, wait=bool(running)):
+            future, recipe = running.pop(key)
             outcome = _outcome(future)
             lost[key] += outcome.status == DIED
             if outcome.status == DIED and lost[key] < ATTEMPTS:
                 waiting.append((key, recipe))
                 continue
+            hand_out()  # nobody shall wait for the disk
             store.done(key, _given_up(outcome) if outcome.status == DIED else outcome)
             done += 1
             start = start or monotonic() - outcome.seconds
@@ -50,19 +58,11 @@ def sweep(crew: Crew, store: Store, limits: Limits, *, forecast: bool = False, p
             progress(crew.missing() or said, done / max(total, 1))
 
 
-def _finished(client, futures: list) -> list:
-    """Those that are done; waits a moment for the first."""
-    from distributed import wait
-
-    if not futures:
-        from time import sleep
-
-        sleep(0.05)  # no worker yet
-        return []
+def _taken(ended: SimpleQueue[str], wait: bool) -> list[str]:
+    """The next design that has ended, if there is one in a moment."""
     try:
-        with client.as_current():
-            return list(wait(futures, timeout=LOOK_EVERY, return_when="FIRST_COMPLETED").done)
-    except TimeoutError:
+        return [ended.get(timeout=LOOK_EVERY if wait else NO_WORKER)]
+    except Empty:
         return []
 
 
