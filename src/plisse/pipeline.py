@@ -73,10 +73,11 @@ def _pleated(recipe: Design, watch: Stopwatch, workspace: Workspace | None) -> R
     except Infeasible as error:
         return broken_down(recipe, [str(error)], watch)
     watch.start("solve", 0.2)
-    zigzagged = zigzag(guide.pattern.resampled(guide.samples), guide.amplitude)
+    workspace, pattern = workspace or Workspace(), guide.pattern.resampled(guide.samples)
+    zigzagged = zigzag(pattern, guide.amplitude, workspace.grid(*pattern.shape))
     if recipe.solve.method == "paper":
         return _by_the_paper(recipe, guide, zigzagged, watch)
-    return _exactly(recipe, guide, zigzagged, watch, workspace or Workspace())
+    return _exactly(recipe, guide, zigzagged, watch, workspace)
 
 
 def _by_formula(recipe: Design, watch: Stopwatch) -> Result:

@@ -2,12 +2,16 @@
 
 import numpy as np
 import pytest
+from shapely import Polygon
 
 from plisse.geometry.vectors import cross_flat
 from plisse.measure.isometry import isometry_defect
 from plisse.measure.overlap import development_overlap
+from plisse.solve import cutting
 from plisse.solve.cutting import best_cut
 from plisse.solve.flatten import flatten, unfold
+from plisse.structure.chains import boundary_loops
+from plisse.structure.cut import cut_along
 from plisse.structure.grid import grid
 from plisse.structure.pleated import PleatedStructure
 
@@ -78,6 +82,21 @@ def test_a_closed_structure_is_cut_open_and_lies_flat(closed_cones):
     done = flatten(closed, cut)
     assert cut.topology.euler_characteristic == 1
     assert isometry_defect(cut.topology, closed.vertices[cut.source], done.development) < 1e-12
+
+
+def test_the_outlines_of_all_cuts_are_those_of_their_developments():
+    angle = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    radius = 100.0 - 6.0 * np.arange(5)[:, None] * (1 + 0.2 * np.sin(angle))
+    height = 8.0 * (np.arange(5) % 2)[:, None] + 0 * angle
+    vertices = np.stack([radius * np.cos(angle), radius * np.sin(angle), height], axis=-1).reshape(-1, 3)
+    ring = PleatedStructure(grid(5, 24, closed_creases=True), vertices)
+    lines = [ring.topology.rulings[k] for k in (3, 11, 20)]
+    for line, outline in zip(lines, cutting._outlines(ring, lines), strict=True):
+        cut = cut_along(ring.topology, line)
+        flat = unfold(cut.topology, ring.vertices[cut.source])[boundary_loops(cut.topology)[0]]
+        # not developable: the sheet meets itself only nearly where it is continued
+        for measure in (lambda ring: Polygon(ring).area, lambda ring: Polygon(ring).length):
+            assert measure(outline) == pytest.approx(measure(flat), rel=0.02)
 
 
 @pytest.mark.parametrize("percent", [0, 25, 75])

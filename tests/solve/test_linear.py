@@ -51,6 +51,7 @@ def test_pattern_is_sorted_and_knows_its_diagonal_and_bandwidth():
     assert (np.diff(pattern.columns * SIZE + pattern.rows) > 0).all()
     np.testing.assert_array_equal(pattern.rows[pattern.diagonal], np.arange(SIZE))
     assert pattern.bandwidth == (pattern.rows - pattern.columns).max()
+    assert pattern.count == len(pattern.rows)
 
 
 needs_rslab = pytest.mark.skipif(find_spec("rslab") is None, reason="rslab is not installed (plisse[fast])")
@@ -94,6 +95,15 @@ def test_factors_solve_the_conditions_of_a_structure_with_holes(kind):
     # round-off grows with the condition of the matrix
     np.testing.assert_allclose(solution, np.linalg.solve(full, right), rtol=0,
                                atol=1e-15 * np.linalg.cond(full) * np.abs(solution).max())
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_products_are_factorised_like_their_entries(kind):
+    row, column, values = random_entries(3)
+    pattern, right = GramPattern(row, column, SIZE), np.ones(SIZE)
+    solution = kind(pattern).factor_product(values, 0.7).solve(right)
+    expected = np.linalg.solve(dense(row, column, values) + 0.7 * np.eye(SIZE), right)
+    np.testing.assert_allclose(solution, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -9,9 +9,10 @@ from scipy.linalg import lapack
 from plisse.errors import Infeasible
 from plisse.geometry import components
 from plisse.geometry.polyline import segments
-from plisse.geometry.vectors import dot, norm, unit
+from plisse.geometry.vectors import cross, dot, norm, unit
 
-__all__ = ["Frame", "curvature", "curvature_vectors", "regularised_frame", "torsion"]
+__all__ = ["Frame", "curvature", "curvature_vectors", "regularised_frame",
+           "tangents_and_binormals", "torsion"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +29,7 @@ def curvature_vectors(points: np.ndarray, closed: bool = False) -> np.ndarray:
     before, after = segments(points, closed)
     length_before, length_after = norm(before), norm(after)
     chord = norm(before + after)
-    inner = 2 * np.cross(before, after) / (length_before * length_after * chord)[:, None]
+    inner = 2 * cross(before, after) / (length_before * length_after * chord)[:, None]
     return inner if closed else np.concatenate([np.zeros((1, 3)), inner, np.zeros((1, 3))])
 
 
@@ -60,39 +61,52 @@ def regularised_frame(points: np.ndarray, closed: bool, smoothing: float) -> Fra
     """Frame whose binormal minimises Σ κ²|E − e3|² + mean(κ²) ℓ⁴ |E″|², for any resolution alike.
 
     `smoothing` is the length ℓ in model units. The weights κ² let E pass through weak inflections (§3.2's
-    regulariser made independent of the number of points). Evolution asks for it hundreds of times.
+    regulariser made independent of the number of points).
     """
-    before, after = segments(points, closed)
-    before, after = np.ascontiguousarray(before.T), np.ascontiguousarray(after.T)
-    square_before, square_after = components.dot(before, before), components.dot(after, after)
-    step = 0.5 * float((np.sqrt(square_before) + np.sqrt(square_after)).mean())
-    chord = before + after
-    bent = 2 / np.sqrt(square_before * square_after * components.dot(chord, chord)) * components.cross(before, after)
-    along = before / square_before + after / square_after
-    along /= components.norm(along)
-    vectors, tangent = (bent, along) if closed else _with_ends(bent, along, before[:, 0], after[:, -1])
-    weight = components.dot(vectors, vectors)
-    mean = weight.mean() if closed else weight[1:-1].mean()
-    if not mean > 0:
-        raise Infeasible("a guiding curve becomes straight and has no side to evolve to; bend the seed curve more")
-    smooth = _solve_banded(weight, (smoothing / step) ** 4 * mean, (vectors * np.sqrt(weight)).T, closed).T
-    binormal = smooth - components.dot(smooth, tangent) * tangent
-    binormal /= components.norm(binormal)
+    tangent, binormal, _ = tangents_and_binormals(np.ascontiguousarray(points.T), closed, smoothing)
     return Frame(tangent.T, components.cross(binormal, tangent).T, binormal.T)
 
 
-def _with_ends(bent: np.ndarray, along: np.ndarray, first: np.ndarray, last: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Curvature vectors and tangents (3, N) continued to open ends: no curvature, and tangents of the end circles."""
-    count = along.shape[1] + 2
-    vectors, tangent = np.zeros((3, count)), np.empty((3, count))
-    vectors[:, 1:-1], tangent[:, 1:-1] = bent, along
-    edge, inner = np.stack([first, last], axis=1), along[:, ::max(count - 3, 1)]
-    tangent[:, ::count - 1] = 2 * components.dot(inner, edge) / components.dot(edge, edge) * edge - inner
-    return vectors, tangent
+def tangents_and_binormals(points: np.ndarray, closed: bool, smoothing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """e1 and e3 (3, N) of `regularised_frame` for points (3, N), and κ² (N,), 0 at open ends.
+
+    Evolution asks for them hundreds of times.
+    """
+    chain = np.concatenate((points[:, -1:], points, points[:, :1]), axis=1) if closed else points
+    edges = chain[:, 1:] - chain[:, :-1]
+    square = components.dot(edges, edges)
+    length, slopes = np.sqrt(square), edges / square
+    along, chord = slopes[:, :-1] + slopes[:, 1:], chain[:, 2:] - chain[:, :-2]
+    turn = components.cross(edges[:, :-1], edges[:, 1:])
+    scale = 4 / (square[:-1] * square[1:] * components.dot(chord, chord))
+    weight = scale * components.dot(turn, turn)
+    count = len(weight)
+    mean, step = float(np.add.reduce(weight)) / count, float(np.add.reduce(length) - 0.5 * (length[0] + length[-1])) / count
+    if not mean > 0:
+        raise Infeasible("a guiding curve becomes straight and has no side to evolve to; bend the seed curve more")
+    vectors = turn * np.sqrt(scale * weight)
+    if not closed:
+        weight, vectors, along = _with_ends(weight, vectors, along, edges, slopes)
+    smooth = _solve_banded(weight, (smoothing / step) ** 4 * mean, vectors, closed)
+    tangent = along / components.norm(along)
+    binormal = smooth - components.dot(smooth, tangent) * tangent
+    binormal /= components.norm(binormal)
+    return tangent, binormal, weight
+
+
+def _with_ends(weight: np.ndarray, vectors: np.ndarray, along: np.ndarray, edges: np.ndarray,
+               slopes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Squared curvature, its vectors and tangents continued to open ends: no curvature, and tangents of the end circles."""
+    count = len(weight) + 2
+    every, last = np.zeros((7, count)), count - 1
+    every[0, 1:-1], every[1:4, 1:-1], every[4:, 1:-1] = weight, vectors, along
+    inner, edge, slope = along[:, ::max(count - 3, 1)], edges[:, ::count - 2], slopes[:, ::count - 2]
+    every[4:, ::last] = 2 * components.dot(inner, edge) * slope - inner
+    return every[0], every[1:4], every[4:]
 
 
 def _solve_banded(weight: np.ndarray, stiffness: float, right: np.ndarray, closed: bool) -> np.ndarray:
-    """Solve (diag(weight) + stiffness D2ᵀD2) x = right, D2 second differences with free or periodic ends."""
+    """Solve (diag(weight) + stiffness D2ᵀD2) x = right (3, N), D2 second differences with free or periodic ends."""
     count = len(weight)
     if not closed:
         bands = stiffness * _second_difference_bands(count)
@@ -102,16 +116,16 @@ def _solve_banded(weight: np.ndarray, stiffness: float, right: np.ndarray, close
     bands = stiffness * bands
     bands[4] += weight[order]
     solution = np.empty_like(right)
-    solution[order] = _definite(bands, right[order])
+    solution[:, order] = _definite(bands, right[:, order])
     return solution
 
 
 def _definite(bands: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """Solution of a positive definite system given by its upper bands."""
-    _, solution, info = lapack.dpbsv(bands, right)
+    """Solutions (3, N) of a positive definite system given by its upper bands."""
+    _, solution, info = lapack.dpbsv(bands, right.T)
     if info:
         raise Infeasible("binormals of a guiding curve are not determined; its points coincide or are not finite")
-    return solution
+    return solution.T
 
 
 @lru_cache(maxsize=16)

@@ -1,6 +1,7 @@
 """Polylines: arc length, even sampling, closest points."""
 
 from collections.abc import Callable
+from functools import lru_cache
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
@@ -59,9 +60,13 @@ def even_sampler(points: np.ndarray, closed: bool = False) -> Callable[[int], np
     """`sample_evenly` of these points for any count, on one spline."""
     spline = interpolating_spline(points, closed)
 
+    @lru_cache(maxsize=2)
+    def lengths(steps: int) -> tuple[np.ndarray, np.ndarray]:
+        fine = np.linspace(0, 1, steps)
+        return fine, arc_length(spline(fine))
+
     def sampled(count: int) -> np.ndarray:
-        fine = np.linspace(0, 1, max(4000, 10 * count))
-        length = arc_length(spline(fine))
+        fine, length = lengths(max(4000, 10 * count))
         return spline(np.interp(np.linspace(0, length[-1], count, endpoint=not closed), length, fine))
 
     return sampled
@@ -115,7 +120,7 @@ def _nearest(points: np.ndarray, lines: np.ndarray) -> np.ndarray:
     levels = apart * np.arange(len(lines))[:, None, None]
     lifted = [np.concatenate([part, np.broadcast_to(levels, (*part.shape[:2], 1))], axis=2).reshape(-1, 4)
               for part in (points, lines)]
-    found = cKDTree(lifted[1]).query(lifted[0])[1]
+    found = cKDTree(lifted[1], balanced_tree=False, compact_nodes=False).query(lifted[0])[1]
     return found.reshape(points.shape[:2]) % lines.shape[1]
 
 
@@ -125,20 +130,20 @@ def _picked(lines: np.ndarray, index: np.ndarray) -> np.ndarray:
 
 
 def tangents(points: np.ndarray, closed: bool = False) -> np.ndarray:
-    """Unit tangents (N, 3) of the circles through three successive points; at open ends those of the end circles."""
+    """Unit tangents (…, N, 3) of the circles through three successive points; at open ends those of the end circles."""
     before, after = segments(points, closed)
-    inner = unit(before / dot(before, before)[:, None] + after / dot(after, after)[:, None])
+    inner = unit(before / dot(before, before)[..., None] + after / dot(after, after)[..., None])
     if closed:
         return inner
-    first, last = unit(before[0]), unit(after[-1])
-    ends = 2 * (inner[0] @ first) * first - inner[0], 2 * (inner[-1] @ last) * last - inner[-1]
-    return np.concatenate([ends[:1], inner, ends[1:]])
+    rims, ends = unit(np.stack([before[..., 0, :], after[..., -1, :]])), np.stack([inner[..., 0, :], inner[..., -1, :]])
+    first, last = (2 * dot(ends, rims)[..., None] * rims - ends)[..., None, :]
+    return np.concatenate([first, inner, last], axis=-2)
 
 
 def segments(points: np.ndarray, closed: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Edges before and after every point (closed), or every inner point (open)."""
+    """Edges (…, N, 3) before and after every point (closed), or every inner point (open)."""
     if closed:
-        after = np.roll(points, -1, axis=0) - points
-        return np.roll(after, 1, axis=0), after
-    steps = np.diff(points, axis=0)
-    return steps[:-1], steps[1:]
+        after = np.roll(points, -1, axis=-2) - points
+        return np.roll(after, 1, axis=-2), after
+    steps = np.diff(points, axis=-2)
+    return steps[..., :-1, :], steps[..., 1:, :]

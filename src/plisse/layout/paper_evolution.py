@@ -32,7 +32,7 @@ def evolve_literally(seed: np.ndarray, theta: np.ndarray, widths: np.ndarray, *,
         direction = np.cos(theta[strip]) * frame.principal_normal + np.sin(theta[strip]) * frame.binormal
         before = curves[-1]
         points = before + width[:, None] * direction
-        refuse_collapse(points, before, seed, strip + 1, closed)
+        refuse_collapse(points.T, before.T, seed.T, strip + 1, closed)
         frame = optimised_frame(points, closed, dose)
         curves.append(points)
         binormals.append(frame.binormal)

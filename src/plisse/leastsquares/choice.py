@@ -18,6 +18,8 @@ SPARSE = 5e4  # SuperLU is faster
 def factoriser(pattern: GramPattern) -> Factoriser:
     """The fastest factorisation for a pattern: banded up to a certain width, then rslab's if installed, else SuperLU."""
     band = Band(pattern)
+    if band.bandwidth**2 < REORDERED:  # there is an entry in every row at least
+        return Banded(band)
     if band.operations > REORDERED:
         band = min(band, Band.narrow(pattern), key=lambda candidate: candidate.bandwidth)
     if band.operations > SUPERNODAL:

@@ -4,7 +4,9 @@ from typing import Protocol
 
 import numpy as np
 
-__all__ = ["Factor", "Factoriser", "NotPositiveDefinite"]
+from plisse.leastsquares.gram import GramPattern
+
+__all__ = ["Assembled", "Factor", "Factoriser", "NotPositiveDefinite", "damped"]
 
 
 class NotPositiveDefinite(ArithmeticError):
@@ -23,3 +25,32 @@ class Factoriser(Protocol):
 
     def factor(self, entries: np.ndarray) -> Factor:
         """Factor of the matrix with these lower-triangle entries; raises NotPositiveDefinite."""
+
+    def factor_product(self, values: np.ndarray, damping: float) -> Factor:
+        """Factor of A Aᵀ + damping for the values of A; raises NotPositiveDefinite."""
+
+
+class Assembled:
+    """Products are assembled entry by entry before they are factorised."""
+
+    pattern: GramPattern
+
+    def factor(self, entries: np.ndarray) -> Factor:
+        """Factor of the matrix with these lower-triangle entries; raises NotPositiveDefinite."""
+        raise NotImplementedError
+
+    def factor_product(self, values: np.ndarray, damping: float) -> Factor:
+        """Factor of A Aᵀ + damping for the values of A; raises NotPositiveDefinite."""
+        entries = self.pattern.assemble(values)
+        entries[self.pattern.diagonal] += damping
+        return self.factor(entries)
+
+
+def damped(factoriser: Factoriser, values: np.ndarray, damping: float, attempts: int) -> Factor:
+    """Factor of A Aᵀ + damping; where it is not positive definite damping grows tenfold, so many times at most."""
+    for attempt in range(attempts):
+        try:
+            return factoriser.factor_product(values, damping * 10.0**attempt)
+        except NotPositiveDefinite:
+            continue
+    raise NotPositiveDefinite("no amount of damping makes the matrix positive definite")

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from plisse.leastsquares import Factor, GramPattern, NotPositiveDefinite, factoriser
+from plisse.leastsquares import Factor, GramPattern, damped, factoriser
 from plisse.leastsquares.kernel import Term
 
 __all__ = ["Blocks", "Linearisation", "Problem"]
@@ -94,20 +94,13 @@ class Problem:
     def gradient(self, at: Linearisation) -> np.ndarray:
         """Jᵀr (N,), half the gradient of the cost."""
         rows, unknowns, _ = self._layout
-        return np.bincount(unknowns, at.entries * at.residual[rows], self.unknowns)
+        return np.bincount(unknowns, at.entries * at.residual.take(rows), self.unknowns)
 
     def factor(self, at: Linearisation, damping: float) -> Factor:
         """Factor of JᵀJ + damping; more damping is added where the matrix is not positive definite."""
-        matrix = self._pattern.assemble(at.entries)
-        floor = max(damping, 1e-14 * matrix[self._pattern.diagonal].max())
-        for attempt in range(12):
-            damped = matrix.copy()
-            damped[self._pattern.diagonal] += floor * 10.0**attempt
-            try:
-                return self._factoriser.factor(damped)
-            except NotPositiveDefinite:
-                continue
-        raise NotPositiveDefinite("no amount of damping makes the normal matrix positive definite")
+        _, unknowns, _ = self._layout
+        largest = float(np.bincount(unknowns, at.entries**2).max())
+        return damped(self._factoriser, at.entries, max(damping, 1e-14 * largest), attempts=12)
 
     def moved(self, blocks: Blocks, step: np.ndarray) -> Blocks:
         """Blocks after a step (N,) in the order of the unknowns."""
@@ -122,7 +115,7 @@ class Problem:
 
 
 def _arguments(term: Term, blocks: Blocks) -> list[np.ndarray]:
-    return [blocks[argument.block][:, argument.index] for argument in term.arguments]
+    return [blocks[argument.block].take(argument.index, axis=1) for argument in term.arguments]
 
 
 def _number_unknowns(keys: dict[str, tuple[int, np.ndarray]]) -> dict[str, np.ndarray]:

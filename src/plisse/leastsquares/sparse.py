@@ -4,16 +4,17 @@ import numpy as np
 from scipy.sparse import csc_array, tril
 from scipy.sparse.linalg import splu
 
-from plisse.leastsquares.factor import Factor, NotPositiveDefinite
+from plisse.leastsquares.factor import Assembled, Factor, NotPositiveDefinite
 from plisse.leastsquares.gram import GramPattern
 
 __all__ = ["Sparse"]
 
 
-class Sparse:
+class Sparse(Assembled):
     """Sparse LU with minimum-degree order and pivots on the diagonal."""
 
     def __init__(self, pattern: GramPattern):
+        self.pattern = pattern
         shape = (pattern.size, pattern.size)
         number = csc_array((np.arange(1.0, len(pattern.rows) + 1), (pattern.rows, pattern.columns)), shape=shape)
         full = csc_array(number + tril(number, -1).T)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from plisse.geometry.vectors import dot, unit
+from plisse.geometry.components import cross, dot, norm
 from plisse.measure.planarity import face_normals
 from plisse.structure.topology import Topology
 
@@ -15,10 +15,11 @@ def fold_angles(topology: Topology, vertices: np.ndarray) -> np.ndarray:
     Boundary edges have 0. The sign is that of FOLD's edges_foldAngle.
     """
     edges = topology.edges
-    normals = face_normals(topology, vertices)
-    first, second = normals[edges.faces[:, 0]], normals[edges.faces[:, 1]]
-    direction = unit(vertices[edges.vertices[:, 1]] - vertices[edges.vertices[:, 0]])
-    angle = np.arctan2(-dot(np.cross(first, second), direction), dot(first, second))
+    normals, points = np.ascontiguousarray(face_normals(topology, vertices).T), np.ascontiguousarray(vertices.T)
+    first, second = (normals.take(column, axis=1, mode="wrap") for column in edges.faces.T)
+    start, end = (points.take(column, axis=1) for column in edges.vertices.T)
+    along = end - start
+    angle = np.arctan2(-dot(cross(first, second), along), dot(first, second) * norm(along))
     return np.where(edges.is_boundary, 0.0, angle)
 
 

@@ -11,6 +11,7 @@ from plisse.structure.triangles import triangulated
 __all__ = ["intersecting_faces"]
 
 CHUNK = 400_000
+BLOCK = 4
 TOUCH = 1e-7
 
 
@@ -31,33 +32,43 @@ def intersecting_faces(topology: Topology, vertices: np.ndarray) -> np.ndarray:
 
 def _box_pairs(topology: Topology, vertices: np.ndarray) -> np.ndarray:
     """Pairs of faces whose bounding boxes meet and that have no common vertex."""
-    faces = _padded_faces(topology)
-    columns = [vertices[column] for column in faces.T]
-    low, high = np.minimum.reduce(columns), np.maximum.reduce(columns)
-    flat, third = _flattest_axis(vertices)
-    boxes = shapely.box(low[:, flat[0]], low[:, flat[1]], high[:, flat[0]], high[:, flat[1]])
-    a, b = shapely.STRtree(boxes).query(boxes)
-    keep = (a < b) & (low[a, third] <= high[b, third]) & (low[b, third] <= high[a, third])
-    a, b = a[keep], b[keep]
-    one, other = faces[a], faces[b]
+    faces, points = _padded_faces(topology), np.ascontiguousarray(vertices.T)
+    corners = [points.take(column, axis=1) for column in faces.T]
+    low, high = np.minimum.reduce(corners), np.maximum.reduce(corners)
+    a, b = _near_pairs(low, high)
+    for axis_low, axis_high in zip(low, high, strict=True):
+        meet = np.flatnonzero((axis_low.take(a) <= axis_high.take(b)) & (axis_low.take(b) <= axis_high.take(a)))
+        a, b = a.take(meet), b.take(meet)
+    one, other = faces.take(a, axis=0), faces.take(b, axis=0)
     touching = np.logical_or.reduce([one[:, i] == other[:, j] for i, j in np.ndindex(faces.shape[1], faces.shape[1])])
-    return np.stack([a[~touching], b[~touching]], axis=1)
+    apart = np.flatnonzero(~touching)
+    return np.stack([a.take(apart), b.take(apart)], axis=1)
+
+
+def _near_pairs(low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs a < b of faces in blocks whose boxes meet: successive faces lie together, and a tree of few boxes is fast."""
+    count = low.shape[1]
+    starts = np.arange(0, count, BLOCK)
+    low, high = np.minimum.reduceat(low, starts, axis=1), np.maximum.reduceat(high, starts, axis=1)
+    flat = np.argsort(low.min(axis=1) - high.max(axis=1), kind="stable")[:2]
+    boxes = shapely.box(*low[flat], *high[flat])
+    one, other = shapely.STRtree(boxes).query(boxes)
+    once = np.flatnonzero(one <= other)
+    i, j = np.divmod(np.arange(BLOCK * BLOCK)[:, None], BLOCK)
+    a, b = (BLOCK * one.take(once) + i).ravel(), (BLOCK * other.take(once) + j).ravel()
+    pairs = np.flatnonzero((a < b) & (b < count))
+    return a.take(pairs), b.take(pairs)
 
 
 def _straddling(pairs: np.ndarray, topology: Topology, vertices: np.ndarray) -> np.ndarray:
     """The pairs in which each face has vertices on both sides of the other's plane."""
     normals, faces = face_normals(topology, vertices), _padded_faces(topology)
     for one, other in ((0, 1), (1, 0)):
-        plane, points = pairs[:, one], faces[pairs[:, other]]
-        origin = vertices[faces[plane, 0]]
-        heights = np.stack([dot(vertices[column] - origin, normals[plane]) for column in points.T])
-        pairs = pairs[(heights.min(axis=0) < 0) & (heights.max(axis=0) > 0)]
+        plane, points = pairs[:, one], faces.take(pairs[:, other], axis=0)
+        normal, origin = normals.take(plane, axis=0), vertices.take(faces[:, 0].take(plane), axis=0)
+        heights = [dot(vertices.take(column, axis=0) - origin, normal) for column in points.T]
+        pairs = pairs[(np.minimum.reduce(heights) < 0) & (np.maximum.reduce(heights) > 0)]
     return pairs
-
-
-def _flattest_axis(vertices: np.ndarray) -> tuple[list[int], int]:
-    order = np.argsort(-np.ptp(vertices, axis=0), kind="stable")
-    return [int(order[0]), int(order[1])], int(order[2])
 
 
 def _padded_faces(topology: Topology) -> np.ndarray:

@@ -11,5 +11,5 @@ __all__ = ["isometry_defect"]
 def isometry_defect(topology: Topology, vertices: np.ndarray, flat: np.ndarray) -> float:
     """Largest difference of an edge or diagonal between space (V, 3) and plane (V, 2), over the mean length."""
     i, j = topology.rods.T
-    lengths = norm(vertices[i] - vertices[j])
-    return float(np.abs(norm(flat[i] - flat[j]) - lengths).max() / lengths.mean())
+    lengths = norm(vertices.take(i, axis=0) - vertices.take(j, axis=0))
+    return float(np.abs(norm(flat.take(i, axis=0) - flat.take(j, axis=0)) - lengths).max() / lengths.mean())

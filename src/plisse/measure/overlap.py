@@ -6,6 +6,7 @@ from itertools import combinations
 import numpy as np
 import shapely
 
+from plisse.geometry.vectors import cross_flat
 from plisse.structure.chains import boundary_loops
 from plisse.structure.parts import parts
 from plisse.structure.topology import Topology
@@ -55,7 +56,8 @@ def _of_one_piece(topology: Topology, flat: np.ndarray) -> Overlap:
         x, y = outside[0].coords[0][:2]
         return Overlap(True, (float(x), float(y)))
     area = outer.area - sum(shapely.Polygon(hole).area for hole in holes)
-    covered = np.abs(shapely.area(shapely.polygons(flat[topology.quads]))).sum()
+    a, b, c, d = (flat.take(column, axis=0) for column in topology.quads.T)
+    covered = 0.5 * np.abs(cross_flat(c - a, d - b)).sum()
     covered += sum(shapely.Polygon(flat[hub]).area for hub in topology.hubs)
     return Overlap(bool(covered > area * (1 + 1e-6)), None)
 

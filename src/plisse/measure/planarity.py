@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from plisse.geometry.vectors import dot, norm, unit
+from plisse.geometry import components
+from plisse.geometry.vectors import norm, unit
 from plisse.structure.topology import Topology
 
 __all__ = ["face_areas", "face_normals", "planarity_defect"]
@@ -23,16 +24,24 @@ def planarity_defect(topology: Topology, vertices: np.ndarray) -> np.ndarray:
 
     For a hub: the largest distance of a vertex from the mean plane over the hub's diameter.
     """
-    a, b, c, d = (vertices[topology.quads[:, k]] for k in range(4))
-    normal = unit(np.cross(c - a, d - b))
-    quads = np.abs(dot(b - a, normal)) / (0.5 * (norm(c - a) + norm(d - b)))
+    a, b, c, d = _quad_corners(topology, vertices)
+    one, other = c - a, d - b
+    normal = components.cross(one, other)
+    size = 0.5 * components.norm(normal) * (components.norm(one) + components.norm(other))
+    quads = np.divide(np.abs(components.dot(b - a, normal)), size, out=np.zeros(len(size)), where=size > 0)
     hubs = [_hub_defect(vertices[hub]) for hub in topology.hubs]
     return np.concatenate([quads, hubs])
 
 
+def _quad_corners(topology: Topology, vertices: np.ndarray) -> list[np.ndarray]:
+    """Vertices a, b, c, d (3, Q) of all quads."""
+    points = np.ascontiguousarray(vertices.T)
+    return [points.take(column, axis=1) for column in topology.quads.T]
+
+
 def _area_vectors(topology: Topology, vertices: np.ndarray) -> np.ndarray:
-    a, b, c, d = (vertices[topology.quads[:, k]] for k in range(4))
-    quads = 0.5 * np.cross(c - a, d - b)
+    a, b, c, d = _quad_corners(topology, vertices)
+    quads = 0.5 * components.cross(c - a, d - b).T
     hubs = [0.5 * np.cross(p := vertices[hub] - vertices[hub].mean(axis=0), np.roll(p, -1, axis=0)).sum(axis=0)
             for hub in topology.hubs]
     return np.concatenate([quads, np.reshape(hubs, (-1, 3))])

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plisse.geometry.vectors import dot
+from plisse.geometry.components import cross, dot
 from plisse.measure.folds import crease_opening_angles
 from plisse.measure.planarity import face_normals
 from plisse.measure.sectors import sector_angles
@@ -47,7 +47,7 @@ def regularity(topology: Topology, vertices: np.ndarray) -> Regularity:
 def inverted_faces(topology: Topology, vertices: np.ndarray) -> np.ndarray:
     """Mask (F,) of faces with a corner that turns the wrong way: non-convex or folded over."""
     corners = topology.corners
-    origin = vertices[corners.vertex]
-    turn = np.cross(vertices[corners.next] - origin, vertices[corners.previous] - origin)
-    wrong = dot(turn, face_normals(topology, vertices)[corners.face]) <= 0
+    points, normals = np.ascontiguousarray(vertices.T), np.ascontiguousarray(face_normals(topology, vertices).T)
+    origin, ahead, behind = (points.take(ends, axis=1) for ends in (corners.vertex, corners.next, corners.previous))
+    wrong = dot(cross(ahead - origin, behind - origin), normals.take(corners.face, axis=1)) <= 0
     return np.bincount(corners.face, wrong, topology.face_count) > 0

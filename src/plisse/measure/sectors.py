@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from plisse.geometry.vectors import angle_between
+from plisse.geometry.components import angle_between
 from plisse.structure.topology import Topology
 
 __all__ = ["angle_defect", "principal_defect", "sector_angles"]
@@ -11,8 +11,9 @@ __all__ = ["angle_defect", "principal_defect", "sector_angles"]
 def sector_angles(topology: Topology, vertices: np.ndarray) -> np.ndarray:
     """Angle in radians (C,) at every corner, in the order of `topology.corners`."""
     corners = topology.corners
-    origin = vertices[corners.vertex]
-    return angle_between(vertices[corners.next] - origin, vertices[corners.previous] - origin)
+    points = np.ascontiguousarray(vertices.T)
+    origin, ahead, behind = (points.take(ends, axis=1) for ends in (corners.vertex, corners.next, corners.previous))
+    return angle_between(ahead - origin, behind - origin)
 
 
 def angle_defect(topology: Topology, vertices: np.ndarray, sectors: np.ndarray | None = None) -> np.ndarray:

@@ -28,7 +28,7 @@ class Pattern(Strict, kw_only=True, frozen=True):
     spacing: Annotated[Literal["mirror", "uniform"],
                        Meta(description="mirror (widths coupled by Fig. 11) or uniform (the paper's)")] = "mirror"
     method: Annotated[Literal["accurate", "paper"],
-                      Meta(description="accurate (midpoint steps) or paper (one step of Fig. 14 per strip)")] = "accurate"
+                      Meta(description="accurate (Runge–Kutta steps) or paper (one step of Fig. 14 per strip)")] = "accurate"
     smoothing: Annotated[float, Meta(ge=1e-3, le=1, description="a fraction of the curve's length")] | None = None
 
 

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from plisse.leastsquares import Factor, GramPattern, NotPositiveDefinite, factoriser
+from plisse.leastsquares import Factor, GramPattern, damped, factoriser
 from plisse.leastsquares.kernel import Term
 from plisse.solve.energies import developability, flat_foldability, planarity
 from plisse.structure.topology import Topology
@@ -71,22 +71,14 @@ class Constraints:
 
     def factor(self, jacobian: np.ndarray) -> Factor:
         """Factor of J Jᵀ + ε; ε grows where constraints depend on each other."""
-        matrix = self._pattern.assemble(jacobian)
-        diagonal = matrix[self._pattern.diagonal].copy()
-        for attempt in range(10):
-            matrix[self._pattern.diagonal] = diagonal + DAMPING * 10.0**attempt
-            try:
-                return self._factoriser.factor(matrix)
-            except NotPositiveDefinite:
-                continue
-        raise NotPositiveDefinite("the constraints contradict each other")
+        return damped(self._factoriser, jacobian, DAMPING, attempts=10)
 
     def pull_back(self, jacobian: np.ndarray, multipliers: np.ndarray) -> np.ndarray:
         """Jᵀy (3, V)."""
         rows, vertices = self._entries
-        weighted = jacobian * multipliers[rows]
+        weighted = jacobian * multipliers.take(rows)
         return np.stack([np.bincount(vertices, component, self.topology.vertex_count) for component in weighted])
 
 
 def _gather(term: Term, vertices: np.ndarray) -> list[np.ndarray]:
-    return [vertices[:, rows.index] for rows in term.arguments]
+    return [vertices.take(rows.index, axis=1) for rows in term.arguments]

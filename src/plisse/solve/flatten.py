@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from plisse.geometry import components
 from plisse.geometry.vectors import dot, norm, unit
 from plisse.leastsquares.kernel import Rows, Term
 from plisse.leastsquares.problem import Problem
@@ -21,7 +22,7 @@ from plisse.structure.parts import parts
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Topology
 
-__all__ = ["flatten", "laid_out", "refine_isometry", "unfold"]
+__all__ = ["flatten", "laid_out", "refine_isometry", "smallest_box", "unfold"]
 
 GOOD_ENOUGH = 3e-14
 
@@ -50,15 +51,12 @@ def unfold(topology: Topology, vertices: np.ndarray, workspace: Workspace | None
     tree = (workspace or Workspace()).held(("face tree", topology), lambda: face_tree(topology))
     local, following = _local_coordinates(topology, vertices), _following(topology)
     direction = np.angle(local[following] - local)
-    rotation, translation = np.zeros(topology.face_count), np.zeros(topology.face_count, complex)
-    for child, parent, at_child, at_parent in tree.levels:
-        # the two faces run through their common edge in opposite directions
-        rotation[child] = rotation[parent] + direction[at_parent] - direction[at_child] + np.pi
-        joint = local[at_parent], local[following[at_child]]
-        translation[child] = (translation[parent] + np.exp(1j * rotation[parent]) * joint[0]
-                              - np.exp(1j * rotation[child]) * joint[1])
+    child, parent, at_child, at_parent = tree.every
+    # the two faces run through their common edge in opposite directions
+    spin = np.exp(1j * tree.summed(direction[at_parent] - direction[at_child] + np.pi))
+    translation = tree.summed(spin[parent] * local[at_parent] - spin[child] * local[following[at_child]])
     corners = topology.corners
-    placed = translation[corners.face] + np.exp(1j * rotation[corners.face]) * local
+    placed = translation[corners.face] + spin[corners.face] * local
     count = np.bincount(corners.vertex, minlength=topology.vertex_count).clip(1)
     return np.stack([np.bincount(corners.vertex, part, topology.vertex_count) / count
                      for part in (placed.real, placed.imag)], axis=1)
@@ -90,29 +88,35 @@ def refine_isometry(topology: Topology, vertices: np.ndarray, flat: np.ndarray, 
 
 def laid_out(topology: Topology, flat: np.ndarray) -> np.ndarray:
     """The same development turned so that its smallest rectangle lies along the x axis, with its corner at 0."""
-    from shapely import MultiPoint, get_coordinates, oriented_envelope
-
-    used = flat[np.unique(topology.corners.vertex)]
-    box = get_coordinates(oriented_envelope(MultiPoint(used)))
-    sides = np.diff(box, axis=0)
-    x = unit(sides[np.argmax(norm(sides[:2]))]) if len(sides) > 1 else np.array([1.0, 0.0])
+    sides = smallest_box(flat[topology.edges.vertices[topology.edges.is_boundary, 0]])
+    x = unit(sides[np.argmax(norm(sides))])
     if (x[0], x[1]) < (0, 0):
         x = -x
     turned = flat @ np.array([[x[0], -x[1]], [x[1], x[0]]])
-    return turned - turned[np.unique(topology.corners.vertex)].min(axis=0)
+    return turned - turned[topology.corners.vertex].min(axis=0)
+
+
+def smallest_box(points: np.ndarray) -> np.ndarray:
+    """Two sides (2, 2) of the smallest rectangle around points (N, 2), in any direction."""
+    from shapely import get_coordinates, linestrings, oriented_envelope
+
+    box = get_coordinates(oriented_envelope(linestrings(points)))
+    sides = np.diff(box, axis=0)[:2]
+    return sides if len(sides) == 2 else np.array([[1.0, 0.0], [0.0, 0.0]])
 
 
 def _local_coordinates(topology: Topology, vertices: np.ndarray) -> np.ndarray:
     """Every corner (C,) in a complex coordinate of its face's plane, faces seen counterclockwise."""
-    corners = topology.corners
-    normal = face_normals(topology, vertices)
+    corners, points = topology.corners, np.ascontiguousarray(vertices.T)
+    normal = np.ascontiguousarray(face_normals(topology, vertices).T)
     first = np.concatenate([[0], np.flatnonzero(np.diff(corners.face)) + 1])
-    origin = vertices[corners.vertex[first]]
-    x = vertices[corners.next[first]] - origin
-    x = unit(x - dot(x, normal)[:, None] * normal)
-    y = np.cross(normal, x)
-    offset = vertices[corners.vertex] - origin[corners.face]
-    return dot(offset, x[corners.face]) + 1j * dot(offset, y[corners.face])
+    origin = points[:, corners.vertex[first]]
+    x = points[:, corners.next[first]] - origin
+    x -= components.dot(x, normal) * normal
+    x /= np.maximum(components.norm(x), np.finfo(float).tiny)
+    y = components.cross(normal, x)
+    offset = points[:, corners.vertex] - origin[:, corners.face]
+    return components.dot(offset, x[:, corners.face]) + 1j * components.dot(offset, y[:, corners.face])
 
 
 def _following(topology: Topology) -> np.ndarray:

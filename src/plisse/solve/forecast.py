@@ -110,12 +110,10 @@ def forecast(pattern: Pattern, amplitude: float, principal: bool = False) -> For
 
 def _half_openings(creases: np.ndarray, closed: bool) -> np.ndarray:
     """Half the angle (m−2, n) between the directions to both neighbours, seen along the crease."""
-    out = []
-    for before, here, after in zip(creases[:-2], creases[1:-1], creases[2:], strict=True):
-        tangent = tangents(here, closed)
-        back, ahead = (d - dot(d, tangent)[:, None] * tangent for d in (before - here, after - here))
-        out.append(0.5 * angle_between(back, ahead))
-    return np.array(out)
+    inner = creases[1:-1]
+    along = tangents(inner, closed)
+    back, ahead = (across - dot(across, along)[..., None] * along for across in (creases[:-2] - inner, creases[2:] - inner))
+    return 0.5 * angle_between(back, ahead)
 
 
 def _ruling_angles(curve: np.ndarray, kappa: np.ndarray, half_opening: np.ndarray, closed: bool) -> np.ndarray:

@@ -4,6 +4,7 @@ import numpy as np
 
 from plisse.structure.pattern import Pattern
 from plisse.structure.pleated import PleatedStructure
+from plisse.structure.topology import Topology
 
 __all__ = ["zigzag", "zigzag_curves"]
 
@@ -14,6 +15,9 @@ def zigzag_curves(pattern: Pattern, amplitude: float) -> np.ndarray:
     return pattern.curves + amplitude * side[:, None, None] * pattern.binormals
 
 
-def zigzag(pattern: Pattern, amplitude: float) -> PleatedStructure:
-    """The creased mesh M1 over a pattern, neither planar nor developable yet; `amplitude` d in model units."""
-    return PleatedStructure(pattern.topology, zigzag_curves(pattern, amplitude).reshape(-1, 3))
+def zigzag(pattern: Pattern, amplitude: float, topology: Topology | None = None) -> PleatedStructure:
+    """The creased mesh M1 over a pattern, neither planar nor developable yet; `amplitude` d in model units.
+
+    The `topology` is that of the pattern, where it is at hand.
+    """
+    return PleatedStructure(topology or pattern.topology, zigzag_curves(pattern, amplitude).reshape(-1, 3))

@@ -1,10 +1,8 @@
 """Successions of vertices on a topology: boundary loops, and triples along polylines."""
 
-from collections.abc import Iterable
-
 import numpy as np
 
-from plisse.structure.topology import Polyline, Topology
+from plisse.structure.topology import Topology
 
 __all__ = ["boundary_loops", "directed_loops", "successive_triples"]
 
@@ -16,13 +14,14 @@ def boundary_loops(topology: Topology) -> tuple[np.ndarray, ...]:
     return tuple(directed_loops(ends))
 
 
-def successive_triples(lines: Iterable[Polyline]) -> np.ndarray:
-    """Successive vertices (T, 3) along polylines."""
-    parts = [np.empty((0, 3), np.int64)]
-    for line in lines:
-        vertices = np.append(line.vertices, line.vertices[:2]) if line.closed else line.vertices
-        parts.append(np.stack([vertices[:-2], vertices[1:-1], vertices[2:]], axis=1))
-    return np.concatenate(parts)
+def successive_triples(ends: np.ndarray) -> np.ndarray:
+    """Successive vertices (T, 3) along polylines made of edges (E, 2): every vertex between its two neighbours."""
+    source, towards = np.concatenate([ends, ends[:, ::-1]]).T
+    towards = towards[np.argsort(source, kind="stable")]
+    degree = np.bincount(source)
+    middle = np.flatnonzero(degree == 2)
+    first = (np.cumsum(degree) - degree)[middle]
+    return np.stack([towards[first], middle, towards[first + 1]], axis=1)
 
 
 def directed_loops(ends: np.ndarray) -> list[np.ndarray]:

@@ -68,34 +68,30 @@ def cut_open(topology: Topology) -> Cut:
 
 def _severed(topology: Topology, severed: np.ndarray) -> Cut:
     """The topology with the faces at severed edges (mask over edges) parted."""
-    corners = topology.corners
-    key = _edge_keys(topology.edges.vertices, topology.vertex_count)
-    corner_key = _edge_keys(np.stack([corners.vertex, corners.next], axis=1), topology.vertex_count)
-    order = np.argsort(corner_key, kind="stable")
-    twins = np.flatnonzero(np.diff(corner_key[order]) == 0)
-    first, second = order[twins], order[twins + 1]
-    open_ = ~np.isin(corner_key[first], key[severed])
-    first, second = first[open_], second[open_]
-    following = _next_corner(topology)
-    # across an edge the corner at its start meets the corner at the other face's end, and the other way round
-    links = np.concatenate([np.stack([first, following[second]]), np.stack([following[first], second])], axis=1)
-    graph = coo_array((np.ones(links.shape[1]), links), shape=(len(corners.vertex),) * 2)
-    _, label = connected_components(graph, directed=False)
-    return _relabel(topology, label)
+    corners, count = topology.corners, np.int64(topology.vertex_count)
+    touched = np.zeros(count, bool)
+    touched[topology.edges.vertices[severed]] = True
+    near = np.flatnonzero(touched[corners.vertex])
+    # around a vertex, a corner meets another where the edge that leaves one face arrives in the other
+    leaving, arriving = (corners.vertex[near] * count + ends[near] for ends in (corners.next, corners.previous))
+    apart = topology.edges.vertices[severed]
+    apart = np.concatenate([apart[:, 0] * count + apart[:, 1], apart[:, 1] * count + apart[:, 0]])
+    shared, first, second = np.intersect1d(leaving, arriving, assume_unique=True, return_indices=True)
+    links = np.stack([first, second])[:, ~np.isin(shared, apart)]
+    graph = coo_array((np.ones(links.shape[1]), links), shape=(len(near),) * 2)
+    return _relabel(topology, near, connected_components(graph, directed=False)[1])
 
 
-def _relabel(topology: Topology, label: np.ndarray) -> Cut:
-    """Number the corner classes so that vertices keep their numbers and copies come last."""
-    vertex = topology.corners.vertex
-    classes, first = np.unique(label, return_index=True)
-    source = vertex[first]
+def _relabel(topology: Topology, near: np.ndarray, label: np.ndarray) -> Cut:
+    """Number the classes of the corners `near` cuts so that vertices keep their numbers and copies come last."""
+    corner = topology.corners.vertex.copy()
+    _, first = np.unique(label, return_index=True)
+    source = corner[near[first]]
     order = np.lexsort((first, source))
-    keeps = np.concatenate([[True], np.diff(source[order]) > 0])
-    number = np.empty(len(classes), np.int64)
-    number[order[keeps]] = source[order[keeps]]
-    copies = order[~keeps]
+    copies = order[1:][np.diff(source[order]) == 0]
+    number = source.copy()
     number[copies] = topology.vertex_count + np.arange(len(copies))
-    corner = number[np.searchsorted(classes, label)]
+    corner[near] = number[label]
     quads = corner[: topology.quads.size].reshape(-1, 4)
     sizes = np.cumsum([len(hub) for hub in topology.hubs])
     hubs = tuple(np.split(corner[topology.quads.size:], sizes[:-1])) if topology.hubs else ()
@@ -104,17 +100,10 @@ def _relabel(topology: Topology, label: np.ndarray) -> Cut:
     return Cut(Topology(len(all_sources), quads, hubs, ordering), all_sources)
 
 
-def _next_corner(topology: Topology) -> np.ndarray:
-    size = np.concatenate([np.full(len(topology.quads), 4), [len(hub) for hub in topology.hubs]]).astype(int)
-    start = np.repeat(np.cumsum(size) - size, size)
-    position = np.arange(size.sum()) - start
-    return start + (position + 1) % np.repeat(size, size)
-
-
 def _line_keys(line: Polyline, vertex_count: int) -> np.ndarray:
     vertices = line.path
     return _edge_keys(np.stack([vertices[:-1], vertices[1:]], axis=1), vertex_count)
 
 
 def _edge_keys(ends: np.ndarray, vertex_count: int) -> np.ndarray:
-    return ends.min(axis=1) * np.int64(vertex_count) + ends.max(axis=1)
+    return np.minimum(ends[:, 0], ends[:, 1]) * np.int64(vertex_count) + np.maximum(ends[:, 0], ends[:, 1])

@@ -26,34 +26,32 @@ def joined(ends: np.ndarray) -> tuple[Polyline, ...]:
     """Polylines made of edges (E, 2), in the order of their first vertex, each ordered along itself."""
     if len(ends) == 0:
         return ()
-    used, local = np.unique(ends, return_inverse=True)
-    local = local.reshape(-1, 2)
+    there = np.zeros(int(ends.max()) + 1, bool)
+    there[ends] = True
+    used = np.flatnonzero(there)
+    local = (np.cumsum(there) - 1)[ends]
     graph = coo_array((np.ones(len(local)), local.T), shape=(len(used),) * 2)
     _, label = connected_components(graph, directed=False)
-    neighbours: list[list[int]] = [[] for _ in used]
-    for a, b in local.tolist():
-        neighbours[a].append(b)
-        neighbours[b].append(a)
-    out = []
-    for group in _groups(label):
-        loose = [v for v in group if len(neighbours[v]) == 1]
-        path = _walk(neighbours, loose[0] if loose else group[0])
-        out.append(Polyline(used[path], closed=not loose))
-    return tuple(out)
+    arcs = np.stack([local, local[:, ::-1]], axis=1).reshape(-1, 2)
+    towards = arcs[np.argsort(arcs[:, 0], kind="stable"), 1]
+    degree = np.bincount(local.ravel())
+    first = np.cumsum(degree) - degree
+    loose = np.flatnonzero(degree == 1)
+    start = np.unique(label, return_index=True)[1]
+    closed = np.ones(len(start), bool)
+    with_end, end = np.unique(label[loose], return_index=True)
+    lowest = start.copy()
+    start[with_end], closed[with_end] = loose[end], False
+    one, other = towards[first].tolist(), np.where(degree > 1, towards[np.minimum(first + 1, len(towards) - 1)], -1).tolist()
+    return tuple(Polyline(used[_walk(one, other, int(start[group]))], bool(closed[group])) for group in np.argsort(lowest))
 
 
-def _groups(label: np.ndarray) -> list[list[int]]:
-    order = np.argsort(label, kind="stable")
-    cuts = np.flatnonzero(np.diff(label[order])) + 1
-    groups = [part.tolist() for part in np.split(order, cuts)]
-    return sorted(groups, key=lambda group: group[0])
-
-
-def _walk(neighbours: list[list[int]], start: int) -> list[int]:
+def _walk(one: list[int], other: list[int], start: int) -> list[int]:
+    """Vertices from `start` on, each followed by the one of its first two neighbours that it does not come from."""
     path, previous, current = [start], -1, start
     while True:
-        ahead = [v for v in neighbours[current] if v != previous]
-        if not ahead or ahead[0] == start:
+        ahead = one[current] if one[current] != previous else other[current]
+        if ahead < 0 or ahead == start:
             return path
-        previous, current = current, ahead[0]
-        path.append(current)
+        path.append(ahead)
+        previous, current = current, ahead

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
+from scipy.interpolate import BSpline, make_interp_spline
 
 from plisse.geometry.vectors import unit
 from plisse.structure.grid import grid
@@ -44,6 +44,11 @@ class Pattern:
         """Parameter in [0, 1] of every column; 1 is left out on closed curves."""
         return np.linspace(0, 1, self.samples, endpoint=not self.closed)
 
+    @property
+    def shape(self) -> tuple[int, int, bool, bool]:
+        """Creases, samples, whether creases are closed, whether the family is: what makes the grid."""
+        return self.creases, self.samples, self.closed, self.closed_family
+
     @cached_property
     def topology(self) -> Topology:
         """The obvious quad mesh M0 over the pattern."""
@@ -51,23 +56,39 @@ class Pattern:
 
     @cached_property
     def _spline(self):
+        """All curves, binormals and widths side by side: (parameters, 7m − 1), or 7m where the family closes."""
         fields = np.concatenate([self.curves, self.binormals], axis=-1)
-        return interpolate_along(fields, self.closed)
+        columns = [fields.swapaxes(0, 1).reshape(self.samples, -1), self.widths.T]
+        return interpolate_along(np.concatenate(columns, axis=1)[None], self.closed)
+
+    @cached_property
+    def _resampled(self) -> dict[int, "Pattern"]:
+        return {self.samples: self}
 
     def resampled(self, samples: int) -> "Pattern":
         """The same pattern with another number of points along every curve, by interpolating splines."""
-        if samples == self.samples:
-            return self
-        parameters = np.linspace(0, 1, samples, endpoint=not self.closed)
-        fields = self._spline(parameters).swapaxes(0, 1)
-        widths = interpolate_along(self.widths, self.closed)(parameters).T
-        return replace(self, curves=np.ascontiguousarray(fields[..., :3]), binormals=unit(fields[..., 3:]), widths=widths)
+        if samples not in self._resampled:
+            values = self._spline(np.linspace(0, 1, samples, endpoint=not self.closed))[:, 0]
+            fields = values[:, :6 * self.creases].reshape(samples, -1, 6).swapaxes(0, 1)
+            self._resampled[samples] = replace(self, curves=np.ascontiguousarray(fields[..., :3]),
+                                               binormals=unit(fields[..., 3:]), widths=values[:, 6 * self.creases:].T)
+        return self._resampled[samples]
 
 
 def interpolate_along(fields: np.ndarray, closed: bool, degree: int = 5):
     """Spline through fields (m, n, …) along their second axis, over [0, 1]; its values are (parameters, m, …)."""
     values = np.moveaxis(fields, 1, 0)
-    if closed:
-        values = np.concatenate([values, values[:1]])
-    degree = min(degree, 5 if len(values) > 7 else 3 if len(values) > 3 else 1)
-    return make_interp_spline(np.linspace(0, 1, len(values)), values, k=degree, bc_type="periodic" if closed else None)
+    count = len(values) + closed
+    degree = min(degree, 5 if count > 7 else 3 if count > 3 else 1)
+    return _periodic(values, degree) if closed else make_interp_spline(np.linspace(0, 1, count), values, k=degree)
+
+
+def _periodic(values: np.ndarray, degree: int) -> BSpline:
+    """The spline of odd degree through values (n, …) at k/n that repeats after 1: its system is circulant."""
+    count, reach = len(values), degree // 2
+    weights = BSpline.basis_element(np.arange(degree + 2.0))(np.arange(1.0, degree + 1))
+    row = np.bincount(np.arange(-reach, reach + 1) % count, weights, count)
+    spectrum = np.fft.rfft(row).real.reshape(-1, *[1] * (values.ndim - 1))
+    coefficients = np.fft.irfft(np.fft.rfft(values, axis=0) / spectrum, count, axis=0)
+    knots, around = np.arange(-degree, count + degree + 1) / count, np.arange(-reach, count + degree - reach) % count
+    return BSpline(knots, coefficients[around], degree, extrapolate="periodic")

@@ -162,7 +162,8 @@ def _unevenness(space: ParallelSpace) -> csr_array:
     """Matrix (E, E) of the mean squared difference between scales of successive edges on creases and rulings."""
     topology = space.structure.topology
     edge = edge_lookup(topology)
-    triples = successive_triples((*topology.creases, *topology.rulings))
+    edges = topology.edges
+    triples = np.concatenate([successive_triples(edges.vertices[kind]) for kind in (edges.is_crease, ~edges.is_crease)])
     rows = np.arange(len(triples))
     before, after = edge(triples[:, 0], triples[:, 1]), edge(triples[:, 1], triples[:, 2])
     entries = np.repeat([-1.0, 1.0], len(rows)), (np.tile(rows, 2), np.concatenate([before, after]))

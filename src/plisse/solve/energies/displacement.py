@@ -22,9 +22,9 @@ def displacement_fairness(topology: Topology, rest: np.ndarray, *, along: float 
     of the zigzag, `across` first differences between neighbouring creases, `closeness` the displacement itself.
     """
     columns = np.arange(topology.vertex_count)
-    bends = successive_triples(topology.creases)
-    twos = successive_triples(topology.rulings)
-    rulings = topology.edges.vertices[~topology.edges.is_crease]
+    edges = topology.edges
+    rulings = edges.vertices[~edges.is_crease]
+    bends, twos = successive_triples(edges.vertices[edges.is_crease]), successive_triples(rulings)
     candidates = [
         ("closeness", value, columns[:, None], closeness),
         ("bend", second_difference, bends, along),
@@ -32,5 +32,5 @@ def displacement_fairness(topology: Topology, rest: np.ndarray, *, along: float 
         ("across", first_difference, rulings, across),
     ]
     return [Term(name, core, tuple(Rows("vertices", column) for column in index.T), weight,
-                 {"rest": core.residual(*(rest[:, column] for column in index.T), rest=0.0)})
+                 {"rest": core.residual(*(rest.take(column, axis=1) for column in index.T), rest=0.0)})
             for name, core, index, weight in candidates if weight > 0 and len(index)]

@@ -10,5 +10,6 @@ __all__ = ["fairness"]
 
 def fairness(topology: Topology, weight: float = 1.0) -> Term:
     """E_fair: second differences p − 2q + r of positions over all successive vertices of creases."""
-    rows = tuple(Rows("vertices", column) for column in successive_triples(topology.creases).T)
+    triples = successive_triples(topology.edges.vertices[topology.edges.is_crease])
+    rows = tuple(Rows("vertices", column) for column in triples.T)
     return Term("fair", second_difference, rows, weight, {"rest": 0.0})
