@@ -25,7 +25,7 @@ from plisse.solve.energies import Guides
 from plisse.solve.flatten import flatten, laid_out
 from plisse.solve.masked import solve_masked
 from plisse.solve.paper import solve_paper
-from plisse.solve.portfolio import GUIDED_PRINCIPAL, SECOND_CHANCE, solve
+from plisse.solve.portfolio import GUIDED, GUIDED_PRINCIPAL, solve
 from plisse.solve.zigzag import zigzag
 from plisse.stopwatch import Stopwatch
 from plisse.structure.pleated import PleatedStructure
@@ -62,7 +62,7 @@ def _start(recipe: SurfaceDesign, family: Family, surface: Surface) -> Start:
 
 
 def _exactly(recipe: SurfaceDesign, start: Start, mesh: ReferenceMesh, surface: Surface, watch: Stopwatch) -> Result:
-    outcome = solve([(start, GUIDED_PRINCIPAL if start.principal else SECOND_CHANCE)])
+    outcome = solve([(start, GUIDED_PRINCIPAL if start.principal else GUIDED)])
     best = outcome.best
     if best.attempt.vertices is None:
         return broken_down(recipe, [best.attempt.message], watch)

@@ -47,10 +47,11 @@ def located(samples: AreaSamples, quads: np.ndarray, reach: float) -> np.ndarray
         return found
     centres = quads.mean(axis=1)
     radius = norm(quads - centres[:, None]).max(axis=1)
-    candidates = cKDTree(centres).query(samples.points, k=_candidates(quads))[1].reshape(len(found), -1)
+    farthest = np.sqrt(radius.max() ** 2 + reach**2)
+    candidates = cKDTree(centres).query(samples.points, k=_candidates(quads), distance_upper_bound=farthest)[1]
     x, y = _frames(samples.normals)
-    for column in candidates.T:
-        open_ = np.flatnonzero(found < 0)
+    for column in candidates.reshape(len(found), -1).T:
+        open_ = np.flatnonzero((found < 0) & (column < len(centres)))
         away = centres[column[open_]] - samples.points[open_]
         height = dot(away, samples.normals[open_])
         near = (np.abs(height) < reach) & (dot(away, away) - height**2 <= radius[column[open_]] ** 2)

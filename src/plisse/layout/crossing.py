@@ -15,6 +15,7 @@ from plisse.layout.family import Family
 __all__ = ["Crossing", "end_to_end", "trajectories"]
 
 NEWTON_STEPS = 6
+CONVERGED = 1e-9  # step, in mean distances of two curves, after which nothing but round-off is left
 CLOSING_STEPS = 12
 
 
@@ -67,7 +68,7 @@ def end_to_end(family: Family, columns: int) -> Crossing:
 
 
 def _crossing(family: Family, at: np.ndarray) -> Crossing:
-    points = np.stack([_on(spline, row, family.closed_curves) for spline, row in zip(family.splines, at, strict=True)])
+    points = np.stack([_on(spline, row, family.closed_curves)[0] for spline, row in zip(family.splines, at, strict=True)])
     following = np.roll(points, -1, axis=0)[:len(family.spacing)]
     return Crossing(at, points, norm(following - points[:len(following)]))
 
@@ -103,26 +104,32 @@ def _closed(family: Family, start: int, at: np.ndarray) -> np.ndarray:
     return rows[:-1]
 
 
-def _on(spline: CubicSpline, at: np.ndarray, closed: bool, order: int = 0) -> np.ndarray:
-    """Points (N, 3) or velocities at arc lengths (N,) of a curve that goes on straight beyond its ends."""
-    held = at if closed else np.clip(at, *spline.x[[0, -1]])
-    return spline(held) + (at - held)[:, None] * spline(held, 1) if order == 0 else spline(held, 1)
+def _on(spline: CubicSpline, at: np.ndarray, closed: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Points and velocities (N, 3) at arc lengths (N,) of a curve that goes on straight beyond its ends."""
+    if closed:
+        return spline(at), spline(at, 1)
+    held = np.clip(at, *spline.x[[0, -1]])
+    velocity = spline(held, 1)
+    return spline(held) + (at - held)[:, None] * velocity, velocity
 
 
 def _opposite(family: Family, row: int, following: int, at: np.ndarray, past_ends: bool = False) -> np.ndarray:
     """Arc lengths on a neighbouring curve whose chords make equal angles with both; nan past its ends if not wanted."""
     spline, neighbour = family.splines[row], family.splines[following]
-    origin, tangent = (_on(spline, at, family.closed_curves, order) for order in (0, 1))
+    origin, tangent = _on(spline, at, family.closed_curves)
     tangent = unit(tangent)
     low, high = neighbour.x[[0, -1]]
     slack = 0.0 if family.closed_curves else 1e-9 * (high - low)
     longest = 2 * float(family.spacing.mean())
     found = at.copy()
     for _ in range(NEWTON_STEPS):
-        point, velocity = (_on(neighbour, found, family.closed_curves, order) for order in (0, 1))
+        point, velocity = _on(neighbour, found, family.closed_curves)
         both = tangent + unit(velocity)
         error = dot(point - origin, both)
-        found = found - np.clip(error / np.maximum(dot(velocity, both), 0.4), -longest, longest)
+        step = np.clip(error / np.maximum(dot(velocity, both), 0.4), -longest, longest)
+        found = found - step
+        if not np.nanmax(np.abs(step), initial=0) > CONVERGED * longest:  # Newton doubles the digits
+            break
     if family.closed_curves or past_ends:
         return found
     with np.errstate(invalid="ignore"):

@@ -39,14 +39,14 @@ def trace(surface: Surface, starts, directions, theta, side=1.0, *, length: floa
                             "give positive numbers")
     count = max(1, int(np.ceil(limit / step - 1e-9)))
     starts, directions, theta, side = _inputs(starts, directions, theta, side)
-    forward = _march(surface, starts, directions, side / np.tan(theta), limit / count, count, beyond)
+    cotangent = side / np.tan(theta)
     if not both:
-        return forward
-    again = np.array([not curve.closed for curve in forward], dtype=bool)
+        return _march(surface, starts, directions, cotangent, limit / count, count, beyond)
     # running backwards n × t changes its sign, and with it the side of the same plane
-    backward = iter(_march(surface, starts[again], -directions[again], -side[again] / np.tan(theta[again]),
-                           limit / count, count, beyond))
-    return tuple(curve if curve.closed else Trace.both_ways(next(backward), curve) for curve in forward)
+    curves = _march(surface, np.tile(starts, (2, 1)), np.concatenate([directions, -directions]),
+                    np.concatenate([cotangent, -cotangent]), limit / count, count, beyond)
+    return tuple(ahead if ahead.closed else Trace.both_ways(behind, ahead)
+                 for ahead, behind in zip(curves[:len(starts)], curves[len(starts):], strict=True))
 
 
 def _inputs(starts, directions, theta, side) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:

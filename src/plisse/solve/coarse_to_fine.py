@@ -1,6 +1,6 @@
 """The optimised way (§3.4): anneal the zigzag on few columns, refine its displacement, polish to round-off."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -12,7 +12,9 @@ from plisse.solve.attempt import Attempt, Start
 from plisse.solve.polish import TOLERANCE, polish
 from plisse.structure.pattern import interpolate_along
 
-__all__ = ["CoarseToFine"]
+__all__ = ["CoarseToFine", "Worth"]
+
+Worth = Callable[[int, np.ndarray], bool]
 
 MIDDLE_COLUMNS = 160
 HOPELESS = 1e-2
@@ -21,15 +23,24 @@ SUFFICIENT = 1e-6  # residual of a level that is only interpolated from
 
 @dataclass(frozen=True)
 class CoarseToFine:
-    """Anneals on `columns` columns with `steps` Gauss–Newton steps per weight, then only polishes finer levels."""
+    """Anneals on `columns` columns with `steps` Gauss–Newton steps per weight, then only polishes finer levels.
+
+    A level that is only interpolated from is polished to `sufficient`; chords serve on the last one where it has `chords`
+    columns or more.
+    """
 
     name: str
     columns: int = 40
     steps: int = 1
     fairness: Mapping[str, float] = field(default_factory=dict)
+    sufficient: float = SUFFICIENT
+    chords: int = 61
 
-    def __call__(self, start: Start) -> Attempt:
-        """The attempt on a start; numerical breakdown is a message, not an exception."""
+    def __call__(self, start: Start, worth: Worth | None = None) -> Attempt:
+        """The attempt on a start; numerical breakdown is a message, not an exception.
+
+        `worth` is told the columns and vertices (V, 3) of the coarsest level and says whether finer ones shall follow.
+        """
         displacement: np.ndarray | None = None
         history: list[float] = []
         iterations = 0
@@ -43,11 +54,15 @@ class CoarseToFine:
                     iterations += self.steps * len(WEIGHTS)
                 last = samples == start.samples
                 conditions = start.workspace.constraints(level.topology, start.principal)
-                done = polish(conditions, vertices, chord=last and samples > 60,
-                              steps=12 if last else 8 if displacement is None else 2,
-                              tolerance=TOLERANCE if last else SUFFICIENT)
+                chord = last and samples >= self.chords
+                done = polish(conditions, vertices, chord=chord,
+                              steps=(20 if chord else 12) if last else 8 if displacement is None else 2,
+                              tolerance=TOLERANCE if last else self.sufficient)
                 iterations += len(done.history) - 2
                 history += done.history[:-1]
+                if displacement is None and not last and worth and not worth(samples, level.in_space(done.vertices)):
+                    return Attempt(self.name, None, f"nothing better is to be seen with {samples} columns", iterations,
+                                   tuple(history))
                 displacement = level.displacement(done.vertices)
                 if done.defect > HOPELESS:  # finer levels only polish: they cannot mend what is wrong here
                     displacement = _Level(start, start.samples).interpolated(displacement)
@@ -85,6 +100,10 @@ class _Level:
         """Displacement (m, n, 3) at this level from one (m, n', 3) at another, in model units."""
         parameters = np.linspace(0, 1, self._guides.shape[1], endpoint=not self._closed)
         return interpolate_along(displacement, self._closed, 3)(parameters).swapaxes(0, 1)
+
+    def in_space(self, vertices: np.ndarray) -> np.ndarray:
+        """Vertices (V, 3) in model units for vertices (3, V)."""
+        return (vertices * self._unit).T
 
     def displacement(self, vertices: np.ndarray) -> np.ndarray:
         """Displacement (m, n, 3) of vertices (3, V) from the guides, in model units."""
