@@ -8,7 +8,8 @@ import pytest
 
 from plisse.draw.camera import best_view
 from plisse.draw.colour_maps import colour_maps
-from plisse.draw.scene import openness, scene_json
+from plisse.draw.openness import openness
+from plisse.draw.scene import scene_json
 from plisse.geometry.vectors import norm
 
 
@@ -54,8 +55,8 @@ def test_every_map_has_one_colour_per_corner(scene, cones):
 
 
 def test_valleys_see_less_sky_and_ridges_all_of_it_on_the_other_side_it_is_the_reverse(cones):
-    seen = openness(cones)
-    inner = ~cones.topology.is_boundary[cones.topology.corners.vertex]
+    seen = openness(cones.topology, cones.vertices)
+    inner = ~cones.topology.is_boundary
     assert np.allclose(seen[inner].max(axis=1), 1)
     opening = 2 * np.arctan2(6.0, 8.0)
     assert np.allclose(seen[inner].min(axis=1), (1 - np.cos(opening)) / 2, atol=0.02)  # 25 columns on half a turn

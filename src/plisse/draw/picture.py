@@ -36,11 +36,11 @@ class Style:
 
 
 def write_picture(structure: PleatedStructure, path: str | Path | BinaryIO, *, camera: Camera | None = None,
-                  style: Style | None = None) -> None:
+                  style: Style | None = None, runs: list[Run] | None = None) -> None:
     """Write a PNG of the structure; equal subjects give equal bytes."""
     from PIL import Image
 
-    Image.fromarray(picture(structure, camera=camera, style=style)).save(path, format="PNG", compress_level=6)
+    Image.fromarray(picture(structure, camera=camera, style=style, runs=runs)).save(path, format="PNG", compress_level=6)
 
 
 def write_turntable(structure: PleatedStructure, path: str | Path, *, elevation: float = 35.0, frames: int = 36,
@@ -54,14 +54,19 @@ def write_turntable(structure: PleatedStructure, path: str | Path, *, elevation:
                    duration=round(1000 * SECONDS_PER_TURN / frames))
 
 
-def picture(structure: PleatedStructure, *, camera: Camera | None = None, style: Style | None = None) -> np.ndarray:
-    """Pixels (H, W, 4) of the structure, as large as fits, seen by the camera or from where it shows most."""
+def picture(structure: PleatedStructure, *, camera: Camera | None = None, style: Style | None = None,
+            runs: list[Run] | None = None) -> np.ndarray:
+    """Pixels (H, W, 4) of the structure, as large as fits, seen by the camera or from where it shows most.
+
+    `runs` are the lines to draw, if not its own.
+    """
     camera, style = best_view(structure) if camera is None else camera, Style() if style is None else style
     seen = camera.project(structure.vertices)[:, :2]
     low, high = seen.min(axis=0), seen.max(axis=0)
     room = _room(style)
     scale = float((room / np.maximum(high - low, 1e-12 * np.ptp(seen))).min())
-    return _drawn(structure, camera, scale, (low + high) / 2, style, _lines(structure, style))
+    lines = _lines(structure, style) if runs is None else runs
+    return _drawn(structure, camera, scale, (low + high) / 2, style, lines)
 
 
 def turntable(structure: PleatedStructure, elevation: float, frames: int, style: Style) -> Iterator[np.ndarray]:

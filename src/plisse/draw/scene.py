@@ -10,11 +10,12 @@ from plisse.draw import colours
 from plisse.draw.camera import Camera
 from plisse.draw.colour_maps import ColourMap
 from plisse.draw.corners import corner_normals, corner_triangles
+from plisse.draw.openness import openness
 from plisse.geometry.vectors import norm, unit
-from plisse.measure.folds import assignments, fold_angles
+from plisse.measure.folds import assignments
 from plisse.structure.pleated import PleatedStructure
 
-__all__ = ["openness", "scene_json"]
+__all__ = ["scene_json"]
 
 # kind, letter of its edges, colour, opacity, half width in pixels
 LINES = (("ruling", "R", colours.RULING, 0.6, 0.5), ("boundary", "B", colours.EDGE, 0.9, 0.7),
@@ -33,29 +34,13 @@ def scene_json(structure: PleatedStructure, camera: Camera, maps: Iterable[Colou
         "corners": _packed(topology.corners.vertex, "<u4"),
         "triangles": _packed(corner_triangles(topology), "<u4"),
         "normals": _packed(np.pad(np.round(32767 * normals), ((0, 0), (0, 1))), "<i2"),
-        "open": _packed(np.round(255 * openness(structure)), "u1"),
+        "open": _packed(np.round(255 * openness(topology, vertices)[topology.corners.vertex]), "u1"),
         "maps": [{"name": found.name, "colours": _packed(_bytes(found.colours(found.values)), "u1")} for found in maps],
         "lines": _lines(structure),
         "basis": basis.tolist(),
         "elevation": elevation,
     }
     return json.dumps(scene, separators=(",", ":")).replace("</", "<\\/")
-
-
-def openness(structure: PleatedStructure) -> np.ndarray:
-    """How much of the sky corners (C, 2) see on the front and on the back of the paper, in 0…1.
-
-    In a groove with opening angle φ a wall sees (1 − cos φ) / 2 of the sky at its bottom, and nearly all of it on the ridge.
-    """
-    topology = structure.topology
-    edges, inner = topology.edges, topology.edges.is_crease & ~topology.edges.is_boundary
-    fold = fold_angles(topology, structure.vertices)[inner]
-    ends = edges.vertices[inner].ravel()
-    count = np.maximum(np.bincount(ends, minlength=topology.vertex_count), 1)
-    valley, ridge = (np.bincount(ends, np.maximum(side * fold, 0).repeat(2), topology.vertex_count) / count
-                     for side in (1, -1))
-    seen = (1 + np.cos(np.stack([valley, ridge], axis=1))) / 2
-    return seen[topology.corners.vertex]
 
 
 def _lines(structure: PleatedStructure) -> list[dict]:
