@@ -1,7 +1,9 @@
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
-from plisse.draw.dashes import SHARE, dashed
+import plisse
+from plisse.draw.dashes import SHARE, dashed, longest_stride, whole
 from plisse.geometry.vectors import norm
 from plisse.measure.folds import assignments
 from plisse.structure.incidence import edge_lookup
@@ -52,6 +54,19 @@ def test_dashes_begin_one_period_apart_along_a_crease(cones):
 def test_where_nothing_is_chosen_there_are_none(cones):
     none = np.zeros(len(cones.topology.edges.vertices), bool)
     assert dashed(cones.topology, none, cones.vertices, 1.0).shape == (0, 2, 3)
+
+
+def test_fewer_pieces_leave_a_fine_crease_by_no_more_than_their_sag():
+    structure = plisse.design({"closed_form": {"kind": "cones", "creases": 4, "samples": 301}}).structure
+    topology, sag = structure.topology, 2e-4 * structure.diagonal
+    stride, creases = longest_stride(topology, structure.vertices, sag), topology.edges.is_crease
+    assert stride > 1
+    pieces = whole(topology, creases, structure.vertices, stride)
+    assert len(pieces) == sum(-(-(len(crease.path) - 1) // stride) for crease in topology.creases)
+    ends = structure.vertices[topology.edges.vertices[creases]]
+    near = cKDTree(np.concatenate([ends[:, 0], ends.mean(axis=1)]))  # vertices, and places between them
+    assert near.query(pieces.mean(axis=1))[0].max() < sag
+    assert np.array_equal(np.unique(whole(topology, creases, structure.vertices)), np.unique(ends))
 
 
 def edge_of(topology, path):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import plisse
+from plisse.draw.camera import Camera
 from plisse.errors import InvalidDesign, InvalidStructure
 from plisse.result import Report, Result
 from plisse.studio.downloads import KINDS, Order, made
@@ -52,7 +53,7 @@ def test_offsets_and_plates_have_the_length_that_was_asked_for(result):
 
 def test_pictures_are_taken_from_where_the_camera_stands_and_in_its_colours(result):
     plain = made(Order(result, "arc"), "picture, PNG")
-    assert made(Order(result, "arc", axes=np.eye(3)), "picture, PNG") != plain
+    assert made(Order(result, "arc", camera=Camera(np.eye(3))), "picture, PNG") != plain
     assert made(Order(result, "arc", colour="opening"), "picture, PNG") != plain
     assert made(Order(result, "arc", percent=20.0), "picture, PNG") != plain
 

@@ -38,6 +38,28 @@ def test_both_ends_of_every_slider_are_allowed(name):
             changed(recipe, {field.key: field.high})
 
 
+@pytest.mark.parametrize("name", shipped_names())
+def test_every_control_has_words_of_its_own_and_says_what_it_does(name):
+    for field in fields_of(read_design(shipped_design(name))):
+        assert field.words.hint, field.key
+        assert "_" not in field.label
+
+
+@pytest.mark.parametrize("name", ["fig12", "fig18", "fig06"])
+def test_choices_are_called_by_words_and_mean_what_the_design_says(name):
+    for field in fields_of(read_design(shipped_design(name))):
+        if field.kind == "choice":
+            assert field.shown in field.shown_choices
+            assert [field.meant(words) for words in field.shown_choices] == list(field.choices)
+
+
+def test_units_are_those_of_the_design_and_of_the_types():
+    labels = {field.key: field.label for field in fields_of(changed(SPLINE, {"units": "m"}))}
+    assert labels["pattern.width"] == "width (m)"
+    assert labels["pattern.theta"] == "inclination θ (°)"
+    assert labels["pattern.creases"] == "creases"
+
+
 @pytest.mark.parametrize("text", ["true", '"30"', "30]\nx = 1", "", "[1, 2", "{a = 1}", "1979-05-27", "import os"])
 def test_a_text_field_takes_numbers_and_lists_only(text):
     with pytest.raises(InvalidDesign):

@@ -9,8 +9,9 @@ from plisse.io.designs import design_from_dict
 from plisse.studio.look_panel import legend_html
 from plisse.studio.motion_panel import marks_of, why_fixed
 from plisse.studio.requests import Found
-from plisse.studio.status import broken, refused, remark, solved, working
+from plisse.studio.status import broken, refused, remark, size_text, solved, working
 from plisse.studio.view import folded_view
+from plisse.studio.words import spoken
 from plisse.transform.collisions import FreeRange
 
 RESULT = plisse.design({"closed_form": {"kind": "cones", "creases": 4, "samples": 11}})
@@ -28,6 +29,21 @@ def test_the_sentences_are_those_of_the_report():
     assert "infeasible" in words(said)
     assert "crease 1 &lt;collapses&gt;" in said.html
     assert "narrow" in said.html
+
+
+def test_sentences_call_keys_as_their_controls_are_called():
+    assert spoken("pattern.width is 3; lower pattern.theta, or set solve.principal = false") == (
+        "“width” is 3; lower “inclination θ”, or set “folds flat (principal)” = false")
+    assert spoken("curve.points[0] and curve.points[1] are the same") == "control point 1 and control point 2 are the same"
+    assert spoken("solve.weights are all 0") == "solve.weights are all 0"
+    assert "“amplitude” is 9" in words(refused("pattern.amplitude is 9", FOUND, "cones"))
+
+
+def test_sizes_have_three_digits_and_a_unit_that_fits():
+    assert size_text(252_469.4, 224_962.2) == "252 × 225 m"
+    assert size_text(12_345.0, 800.0) == "12.3 × 0.8 m"
+    assert size_text(1234.4, 51.14) == "1234 × 51.1 mm"
+    assert size_text(0.01234, 5.0) == "0.0123 × 5 mm"
 
 
 def test_drafts_are_never_exact():
@@ -70,8 +86,8 @@ def test_why_nothing_moves_is_the_true_reason():
     assert "no structure" in why_fixed(Found(msgspec.structs.replace(RESULT.report, principal=True), False), recipe)
     view = folded_view(RESULT.structure)
     loose = Found(msgspec.structs.replace(RESULT.report, principal=False), False, folded=view)
-    assert "switch principal on" in why_fixed(loose, RESULT.design)
-    assert "switch principal on" not in why_fixed(loose, recipe)
+    assert "switch “folds flat” on" in why_fixed(loose, RESULT.design)
+    assert "switch “folds flat” on" not in why_fixed(loose, recipe)
     assert why_fixed(Found(msgspec.structs.replace(RESULT.report, principal=True), False, folded=view), recipe) == ""
 
 

@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from plisse.draw.colour_maps import colour_maps
+from plisse.draw.dashes import SHARE
 from plisse.geometry.vectors import norm, unit
 from plisse.measure.folds import assignments
 from plisse.measure.planarity import face_areas, face_normals
@@ -45,21 +47,39 @@ def test_paper_is_doubled_along_creases_and_not_along_rulings(structure):
     assert len(folded_view(structure).points) == topology.vertex_count + len(inner)
 
 
-def test_lines_are_the_edges_of_their_letter(structure):
+def lengths(lines):
+    return norm(lines[:, 1] - lines[:, 0]).sum()
+
+
+def test_mountains_are_whole_and_valleys_in_dashes_on_both_sides_of_the_paper(structure):
     letters = assignments(structure.topology, structure.vertices)
     edges, lines = structure.topology.edges, folded_view(structure).lines
-    assert len(lines["mountain"]) == (edges.is_crease & (letters == "M")).sum()
-    assert len(lines["valley"]) == (edges.is_crease & (letters == "V")).sum()
-    assert sum(map(len, lines.values())) == len(edges.vertices)
+    ends = structure.vertices[edges.vertices]
+    mountain, valley = (ends[edges.is_crease & (letters == letter)] for letter in "MV")
+    assert lengths(lines["mountain"]) == pytest.approx(2 * lengths(mountain), rel=0.1)  # beside the fold
+    assert lengths(lines["valley"]) == pytest.approx(2 * SHARE * lengths(valley), rel=0.1)
+    assert lengths(lines["boundary"]) == pytest.approx(lengths(ends[edges.is_boundary]), rel=0.001)
+    assert len(lines["ruling"]) == (~edges.is_crease & ~edges.is_boundary).sum()
+
+
+def test_lines_lie_near_their_creases_in_the_grooves(structure):
+    """Nearer than a fifth of a strip's width, in front of the paper in valleys and behind it at mountains."""
+    topology, letters = structure.topology, assignments(structure.topology, structure.vertices)
+    mountain = topology.edges.vertices[topology.edges.is_crease & (letters == "M")]
+    places = cKDTree(structure.vertices[np.unique(mountain)])
+    across = topology.edges.vertices[~topology.edges.is_crease]
+    width = np.median(norm(structure.vertices[across[:, 1]] - structure.vertices[across[:, 0]]))
+    ridge, groove = np.split(folded_view(structure).lines["mountain"], 2)
+    assert places.query(ridge.reshape(-1, 3))[0].max() < 0.02 * width
+    assert 0.02 * width < places.query(groove.reshape(-1, 3))[0].max() < 0.2 * width
 
 
 def test_the_sheet_has_the_same_area_and_the_same_folds(structure):
     flat, folded = flat_view(structure), folded_view(structure)
     assert np.ptp(flat.points[:, 2]) == 0
     assert area(flat) == pytest.approx(area(folded), rel=1e-5)  # float32
-    for name in ("mountain", "valley"):
-        lengths = [norm(view.lines[name][:, 1] - view.lines[name][:, 0]).sum() for view in (flat, folded)]
-        assert lengths[0] == pytest.approx(lengths[1], rel=1e-5)  # float32
+    for name, sides in (("mountain", 2), ("valley", 2), ("boundary", 1)):
+        assert sides * lengths(flat.lines[name]) == pytest.approx(lengths(folded.lines[name]), rel=0.1)  # beside the fold
 
 
 def test_colours_are_those_of_the_map(structure):

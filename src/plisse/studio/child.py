@@ -74,7 +74,9 @@ class Child:
                     self._dropped = number
                 else:
                     self._waiting.put((number, request))
-        except (EOFError, OSError):
+        except (EOFError, OSError, pickle.UnpicklingError):  # the input ended, maybe in the middle of a request
+            pass
+        finally:
             self._dropped = sys.maxsize
             self._waiting.put(None)
 
@@ -104,8 +106,10 @@ class Child:
         self._answers.flush()
 
 
-def main() -> None:
-    """Serve on the standard streams; what libraries print goes to the standard error."""
+def main(patient: bool = False) -> None:
+    """Serve on the standard streams; what libraries print goes to the standard error. Patient ones leave others the core."""
+    if patient and hasattr(os, "nice"):
+        os.nice(10)
     answers = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
     signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plisse.studio.fields import Field, fields_of, value_of_text
+from plisse.studio.fields import Field, fields_of
 from plisse.studio.series import fitted
+from plisse.studio.words import TITLES
 
 if TYPE_CHECKING:
     from plisse.studio.tab import Tab
 
 __all__ = ["DesignPanel"]
 
-TITLES = {"pattern": "Pleats", "curve": "Curve", "march": "March", "closed_form": "Closed form", "surface": "Pleats over it",
-          "strips": "Strips", "parallel": "Parallel", "solve": "Exactness"}
+LIST = "a number, or a list: one value per crease or strip"
+DIGITS = 6  # after the point, in what is typed
 
 
 class DesignPanel:
@@ -38,8 +39,9 @@ class DesignPanel:
             control = self._controls[field.key, field.kind]
             if field.kind in ("slider", "whole"):
                 control.min, control.max = min(control.min, field.value), max(control.max, field.value)  # type: ignore
-            if control.value != field.value:  # type: ignore[attr-defined]
-                control.value = field.value  # type: ignore[attr-defined]
+            shown = field.shown
+            if control.value != shown:  # type: ignore[attr-defined]
+                control.value = shown  # type: ignore[attr-defined]
 
     def _build(self, fields: list[Field]) -> None:
         for folder in self._folders:
@@ -64,27 +66,31 @@ class DesignPanel:
 
     def _slider(self, field: Field):
         whole = int if field.kind == "whole" else float
-        return self._gui.add_slider(field.label, whole(field.low), whole(field.high), whole(field.step),  # type: ignore
-                                    field.value)
+        slider = self._gui.add_slider(field.label, whole(field.low), whole(field.high), whole(field.step),  # type: ignore
+                                      field.value, hint=field.words.hint)
+        if field.kind == "slider":
+            slider.precision = DIGITS  # what is typed may be finer than a step
+        return slider
 
     def _number(self, field: Field):
-        return self._gui.add_number(field.label, field.value, min=int(field.low), max=int(field.high), step=1)  # type: ignore
+        return self._gui.add_number(field.label, field.value, min=int(field.low), max=int(field.high), step=1,  # type: ignore
+                                    hint=field.words.hint)
 
     def _switch(self, field: Field):
-        return self._gui.add_checkbox(field.label, bool(field.value))
+        return self._gui.add_checkbox(field.label, bool(field.value), hint=field.words.hint)
 
     def _choice(self, field: Field):
-        return self._gui.add_dropdown(field.label, field.choices, initial_value=str(field.value))
+        return self._gui.add_dropdown(field.label, field.shown_choices, initial_value=str(field.shown),
+                                      hint=field.words.hint)
 
     def _list(self, field: Field):
-        return self._gui.add_text(field.label, str(field.value), hint="a number, or a list: one value per crease or strip")
+        return self._gui.add_text(field.label, str(field.value), hint=". ".join(filter(None, (field.words.hint, LIST))))
 
     def _changed(self, field: Field):
         async def changed(event) -> None:
             if event.client is None:
                 return
             value = event.target.value
-            self._tab.act(lambda: self._tab.desk.change(fitted(
-                self._tab.desk.recipe, {field.key: value_of_text(value) if field.kind == "list" else value})))
+            self._tab.act(lambda: self._tab.desk.change(fitted(self._tab.desk.recipe, {field.key: field.meant(value)})))
 
         return changed

@@ -9,14 +9,17 @@ from pathlib import Path
 import numpy as np
 
 from plisse.draw.camera import Camera
-from plisse.draw.colour_maps import colour_maps, deviation_of
+from plisse.draw.colour_maps import ColourMap, colour_maps, deviation_of
 from plisse.draw.preview import write_preview
+from plisse.draw.runs import Run
+from plisse.draw.thick import thick_sheet
 from plisse.io.exports import BOTH, FLAT, FOLDED, export
 from plisse.io.model import Model
 from plisse.io.plate_solids import write_plate_solids
 from plisse.io.plate_table import write_plates_csv
 from plisse.io.report import report_json
 from plisse.result import Result
+from plisse.structure.pleated import PleatedStructure
 from plisse.studio.bench import required
 from plisse.transform.collisions import DESIGNED
 from plisse.transform.flex import Motion
@@ -33,18 +36,19 @@ PLATES = (".obj", ".stl", ".3mf", ".glb")
 class Order:
     """A result with its title, and how files of it are to be made.
 
-    `length` is the thickness of plates or the distance of the offset in model units, `axes` (3, 3) are those of the camera,
-    `colour` names a colour map or none, `percent` is the state of the motion that the picture shows, `material` is the
-    size of sheets in mm.
+    `length` is the thickness of plates or the distance of the offset in model units, `camera` is where a picture is
+    taken from, and it shows what is on screen: `solid` is "plates", "offset" or nothing, `colour` names a colour map or
+    none, `percent` is the state of the motion. `material` is the size of sheets in mm.
     """
 
     result: Result
     title: str
     length: float = 1.0
-    axes: np.ndarray | None = None
+    camera: Camera | None = None
     colour: str = ""
     material: tuple[float, float] = MATERIAL
     percent: float = DESIGNED
+    solid: str = ""
 
 
 Write = Callable[[Order, Path], None]
@@ -102,13 +106,21 @@ def _page(order: Order, path: Path) -> None:
 def _picture(order: Order, path: Path) -> None:
     from plisse.draw.picture import Style, write_picture
 
+    structure, colour, runs = _on_screen(order)
+    write_picture(structure, path, camera=order.camera, style=Style(PIXELS, colour=colour), runs=runs)
+
+
+def _on_screen(order: Order) -> tuple[PleatedStructure, ColourMap | None, list[Run] | None]:
+    """What is seen, its colours and its lines; states of the motion, plates and offsets are paper."""
     structure = required(order.result)
-    if order.percent == DESIGNED:
-        colour = colour_maps(structure, deviation_of(order.result)).get(order.colour)
-    else:
-        structure, colour = structure.flex(order.percent).structures[0], None  # as on screen, where poses are paper
-    camera = None if order.axes is None else Camera(order.axes)
-    write_picture(structure, path, camera=camera, style=Style(PIXELS, colour=colour))
+    if order.percent != DESIGNED:
+        return structure.flex(order.percent).structures[0], None, None
+    if order.solid == "plates":
+        thick = thick_sheet(structure.plates(order.length))
+        return thick.structure, None, thick.runs
+    if order.solid == "offset":
+        return structure.offset(order.length), None, None
+    return structure, colour_maps(structure, deviation_of(order.result)).get(order.colour), None
 
 
 def _preview(order: Order, path: Path) -> None:

@@ -13,7 +13,7 @@ from plisse.studio.downloads import KINDS, Order, file_name
 from plisse.studio.requests import Candidates, Fetch, Mesh, Reach, Request, Take
 from plisse.studio.status import working
 from plisse.studio.surface_panel import shape_of
-from plisse.studio.worker import Worker
+from plisse.studio.worker import Process, Worker
 
 if TYPE_CHECKING:
     from plisse.studio.tab import Tab
@@ -86,12 +86,12 @@ class Errands:
             tab.read(f'[surface]\nfile = "{request.name}"\n', request.name.rpartition(".")[0])
         elif isinstance(request, Candidates):
             if shape_of(request.recipe) == shape_of(tab.desk.solvable):
-                tab.panels.show_candidates(*value)
+                tab.panels.show_candidates(value)
             tab.say_found()
 
     def _ask(self, request: Request) -> None:
         if self._helper is None:
-            self._helper = Worker(self._tab.deliver)
+            self._helper = Worker(self._tab.deliver, lambda: Process(patient=True))
         self._helper.ask(request)
 
     def _with_result(self, use: Callable[[Result], None]) -> None:

@@ -13,16 +13,16 @@ from plisse.recipe import Points, Recipe, Spline
 if TYPE_CHECKING:
     from viser import ClientHandle
 
-__all__ = ["Handles", "control_points_of", "snapped", "with_point_after", "without_point"]
+__all__ = ["MOST_POINTS", "Handles", "control_points_of", "snapped", "with_point_after", "without_point"]
 
-MOST = 40
+MOST_POINTS = 40
 PLANES = {"xy": 2, "xz": 1, "yz": 0}
 
 
 def control_points_of(recipe: Recipe) -> np.ndarray | None:
     """The points (N, 3) that can be pulled; None where the curve has none, or so many that it is a measurement."""
     curve = getattr(recipe, "curve", None)
-    if not isinstance(curve, Spline | Points) or curve.points is None or len(curve.points) > MOST:
+    if not isinstance(curve, Spline | Points) or curve.points is None or len(curve.points) > MOST_POINTS:
         return None
     return np.array(curve.points, dtype=float)
 

@@ -11,6 +11,7 @@ import numpy as np
 from plisse.draw import colours
 from plisse.draw.camera import Camera
 from plisse.draw.colour_maps import NAMES
+from plisse.draw.dashes import SHARE
 from plisse.studio.view import Tint
 
 if TYPE_CHECKING:
@@ -21,6 +22,8 @@ __all__ = ["LookPanel", "legend_html", "scale_html"]
 PAPER = "paper"
 SWITCHES = (("rulings", "rulings"), ("creases", "creases"), ("sheet", "flat sheet beside"), ("seed", "seed curve"),
             ("reference", "reference surface"))
+LINES = ((colours.MOUNTAIN, False, "mountain"), (colours.VALLEY, True, "valley"), (colours.EDGE, False, "edge"))
+STROKE = 10  # pixels from dash to dash in the legend
 THIN = 0.006  # plates, in radii of the structure
 TURN, FRAMES = 2 * np.pi / 12, 25  # radians and pictures per second
 
@@ -36,12 +39,19 @@ def scale_html(tint: Tint) -> str:
 
 
 def legend_html(scale_of_sheet: float) -> str:
-    """What the colours of lines mean, and how large the sheet is beside the structure (0 for none)."""
-    lines = " ".join(f"<span style='color:{ink}'>━━</span> {words}"
-                     for ink, words in ((colours.MOUNTAIN, "mountain"), (colours.VALLEY, "valley")))
+    """What lines mean, and how large the sheet is beside the structure (0 for none)."""
+    lines = " &ensp;".join(f"<span style='white-space:nowrap'>{_stroke(ink, is_dashed)} {words}</span>"
+                           for ink, is_dashed, words in LINES)
     ratio = f"1 : {1 / scale_of_sheet:.0f}" if scale_of_sheet else ""
     sheet = f"<br>flat sheet at {ratio} of the structure" if scale_of_sheet else ""
     return f"<div style='font-size:0.86em;padding:0 1em'>{lines}{sheet}</div>"
+
+
+def _stroke(ink: str, is_dashed: bool) -> str:
+    """A short line as it is drawn in the scene."""
+    gaps = f" stroke-dasharray='{STROKE * SHARE:g} {STROKE * (1 - SHARE):g}'" if is_dashed else ""
+    return (f"<svg width='{3 * STROKE}' height='8' aria-hidden='true' style='vertical-align:middle'><line x1='0' y1='4' "
+            f"x2='{3 * STROKE}' y2='4' stroke='{ink}' stroke-width='2'{gaps}/></svg>")
 
 
 class LookPanel:
@@ -89,8 +99,9 @@ class LookPanel:
     def manner(self) -> dict[str, Any]:
         """How what is taken away is made, as `downloads.Order` has it: as it is seen."""
         camera = self._tab.client.camera
-        axes = Camera.looking_from(camera.position - camera.look_at, camera.up_direction).axes
-        return {"length": float(self._length.value), "axes": axes, "colour": self._tab.colour, "percent": self._tab.percent}
+        seen = Camera.looking_from(camera.position - camera.look_at, camera.up_direction)
+        return {"length": float(self._length.value), "camera": seen, "colour": self._tab.colour,
+                "percent": self._tab.percent, "solid": self._tab.solid[0]}
 
     def fit(self, size: float) -> None:
         """Suggest a thickness for structures of a size (radius), where none was chosen."""

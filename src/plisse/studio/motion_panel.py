@@ -14,11 +14,13 @@ if TYPE_CHECKING:
 
 __all__ = ["MotionPanel", "marks_of", "why_fixed"]
 
-FIXED = "This structure is not principal, so it has no motion that keeps its rulings; switch principal on under Exactness."
+FIXED = ("This structure is not principal, so it has no motion that keeps its rulings; switch “folds flat” on under Design, "
+         "Exactness.")
 NO_STRUCTURE = "There is no structure, so there is no motion; the status says why."
-NOT_YET = "This structure is not principal although principal is on, so it does not move; the status says why."
+NOT_YET = "This structure is not principal although “folds flat” is on, so it does not move; the status says why."
 MEASURING = "The range that is free of collisions is being measured …"
 STATES = {0.0: "flat", 100.0: "as designed", 200.0: "folded"}
+HINT = "0 is the flat sheet, 100 the structure as it was designed, 200 folded flat"
 APART = 40.0  # percent between marks whose words do not touch
 
 
@@ -45,7 +47,7 @@ class MotionPanel:
     def __init__(self, tab: Tab):
         self._tab, gui = tab, tab.client.gui
         with gui.add_folder("Motion"):
-            self._percent = gui.add_slider("folded (%)", 0.0, 200.0, 0.5, 100.0, marks=tuple(STATES.items()))
+            self._percent = gui.add_slider("folded (%)", 0.0, 200.0, 0.5, 100.0, marks=tuple(STATES.items()), hint=HINT)
             self._words = gui.add_markdown("")
         self._percent.on_update(self._moved)
 
@@ -65,7 +67,7 @@ class MotionPanel:
 
     def show_reach(self, free: FreeRange) -> None:
         """Mark the free range."""
-        collisions = "".join(f"\n\n{sentence}" for sentence in free.collisions)
+        collisions = "".join(f"\n\n{sentence[:1].upper()}{sentence[1:]}" for sentence in free.collisions)
         self._words.content = f"Free of collisions from {free.low:.4g} to {free.high:.4g} %.{collisions}"
         set_marks(self._percent, marks_of(free))
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from plisse.studio.design_panel import DesignPanel
+from plisse.studio.framing import is_narrow
 from plisse.studio.gallery_panel import GalleryPanel
 from plisse.studio.look_panel import LookPanel
 from plisse.studio.motion_panel import MotionPanel
@@ -18,12 +19,13 @@ from plisse.studio.take_panel import TakePanel
 from plisse.studio.view import Tint
 
 if TYPE_CHECKING:
+    from plisse.studio.candidates import Choice
     from plisse.studio.tab import Tab
     from plisse.transform.collisions import FreeRange
 
 __all__ = ["Panels"]
 
-NARROW, LONGEST_LABEL = 640, 60
+LONGEST_LABEL = 60
 
 
 class Panels:
@@ -31,10 +33,12 @@ class Panels:
 
     def __init__(self, tab: Tab):
         self._tab, gui = tab, tab.client.gui
-        self._narrow = tab.client.camera.image_width < NARROW
+        self._narrow = is_narrow(tab.client.camera)
         self._status = gui.add_html("") if self._narrow else self._status_above()
-        self._undo = gui.add_button_group("history", ("undo", "redo"))
-        self._undo.on_click(self._step)
+        self._undo = gui.add_button("undo", icon="arrow-back-up", disabled=True)
+        self._redo = gui.add_button("redo", icon="arrow-forward-up", disabled=True)
+        self._undo.on_click(self._back)
+        self._redo.on_click(self._forth)
         gui.add_command("Undo", hotkey="Z", modifier="cmd/ctrl").on_trigger(self._back)
         gui.add_command("Redo", hotkey="Z", modifier="cmd/ctrl+shift").on_trigger(self._forth)
         tabs = gui.add_tab_group()
@@ -92,6 +96,7 @@ class Panels:
 
     def refresh(self) -> None:
         """Bring all controls to what is on the desk."""
+        self._undo.disabled, self._redo.disabled = not self._tab.desk.can_undo, not self._tab.desk.can_redo
         for panel in (self._design, *self._series, self._points, self._motion, self._look, self._surface, self._take):
             panel.refresh()
 
@@ -117,12 +122,9 @@ class Panels:
         self._motion.show_reach(free)
         self._look.show_offsets(offsets)
 
-    def show_candidates(self, picture: bytes, choices: list[tuple[str, dict]]) -> None:
+    def show_candidates(self, choices: list[Choice]) -> None:
         """Show layouts to choose from."""
-        self._surface.show_candidates(picture, choices)
-
-    async def _step(self, event) -> None:
-        await (self._back if event.target.value == "undo" else self._forth)(event)
+        self._surface.show_candidates(choices)
 
     async def _back(self, _event) -> None:
         self._tab.act(self._tab.desk.undo)

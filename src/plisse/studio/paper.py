@@ -13,7 +13,7 @@ __all__ = ["Paper", "Shown", "ink_bytes"]
 
 INKS = {"mountain": (colours.MOUNTAIN, 1.6), "valley": (colours.VALLEY, 1.6), "flat": (colours.RULING, 1.2),
         "boundary": (colours.EDGE, 1.4), "ruling": (colours.RULING, 0.7),
-        "plate": (colours.RULING, 0.8)}
+        "plate": (colours.EDGE, 1.1)}
 PALE = 0.3  # opacity of what is not the structure of the design any more
 
 
@@ -52,7 +52,9 @@ class Paper:
                 f"{self._name}/{side}", view.points, view.triangles, color=ink_bytes(ink), side=side, receive_shadow=False,
                 cast_shadow=False) for side, ink in (("front", colours.PAPER), ("back", colours.BACK_OF_PAPER))]
         for mesh in self._sides:
-            mesh.vertices, mesh.faces = view.points, view.triangles
+            mesh.vertices = view.points
+            if not np.array_equal(mesh.faces, view.triangles):
+                mesh.faces = view.triangles
             mesh.opacity, mesh.visible = None, True
         for name in INKS:
             segments = view.lines.get(name, np.empty((0, 2, 3), np.float32))

@@ -8,7 +8,8 @@ import numpy as np
 
 from plisse.geometry.curves import seed_curve
 from plisse.recipe import Design
-from plisse.studio.handles import control_points_of, snapped, with_point_after, without_point
+from plisse.studio.framing import is_narrow
+from plisse.studio.handles import MOST_POINTS, control_points_of, snapped, with_point_after, without_point
 
 if TYPE_CHECKING:
     from plisse.studio.tab import Tab
@@ -17,6 +18,7 @@ __all__ = ["PointsPanel"]
 
 POINTS = 7
 FREE = "anywhere"
+COORDINATES = "coordinates"
 
 
 class PointsPanel:
@@ -26,11 +28,14 @@ class PointsPanel:
         self._tab, gui = tab, tab.client.gui
         self._folder = gui.add_folder("Control points")
         with self._folder:
-            self._show = gui.add_checkbox("show control points", True)
-            self._number = gui.add_slider("point", 1, 2, 1, 1)
-            self._place = gui.add_vector3("coordinates", (0.0, 0.0, 0.0), step=0.1)
-            self._plane = gui.add_dropdown("points lie", (FREE, "in a plane xy", "in a plane xz", "in a plane yz"))
-            self._edit = gui.add_button_group("points", ("add", "remove"))
+            self._show = gui.add_checkbox("show control points", not is_narrow(tab.client.camera),
+                                          hint="Balls on the curve that can be pulled")
+            self._number = gui.add_slider("point", 1, 2, 1, 1, hint="Which control point has the arrows")
+            self._place = gui.add_vector3(COORDINATES, (0.0, 0.0, 0.0), step=0.1, hint="Where it is: x, y and z")
+            self._plane = gui.add_dropdown("points lie", (FREE, "in a plane xy", "in a plane xz", "in a plane yz"),
+                                           hint="A plane brings all points into it, and keeps them there when pulled")
+            self._edit = gui.add_button_group("points", ("add", "remove"),
+                                              hint="A point after the one with the arrows, or without that one")
         self._convert = gui.add_button("Make control points of this curve", icon="vector-spline",
                                        hint="The curve becomes a spline through points that can be pulled")
         self._show.on_update(self._switched)
@@ -68,6 +73,7 @@ class PointsPanel:
             if self._number.max != len(points):
                 self._number.max = len(points)
             self._number.value = min(self._number.value, len(points))
+            self._place.label = f"{COORDINATES} ({recipe.units})"
             self._place.value = tuple(points[self._number.value - 1].tolist())
 
     def _points(self) -> np.ndarray | None:
@@ -104,7 +110,9 @@ class PointsPanel:
         points, index = self._points(), self._number.value - 1
         if event.client is None or points is None:
             return
-        if event.target.value == "add":
+        if event.target.value == "add" and len(points) >= MOST_POINTS:
+            self._tab.refuse(f"a curve has at most {MOST_POINTS} control points; remove one first")
+        elif event.target.value == "add":
             self._set(with_point_after(points, index, self._closed))
         else:
             self._set(without_point(points, index))

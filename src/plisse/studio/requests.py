@@ -6,19 +6,18 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from plisse.draw.camera import best_view
+from plisse.draw.camera import Camera, best_view
 from plisse.draw.colour_maps import colour_maps, deviation_of
-from plisse.draw.plates import plates_mesh
 from plisse.errors import InvalidMesh, InvalidStructure
 from plisse.io.meshes import read_mesh
 from plisse.recipe import Recipe, SurfaceDesign
 from plisse.result import Report, Result
 from plisse.structure.pleated import PleatedStructure
 from plisse.studio.bench import Bench, Progress, required
-from plisse.studio.candidates import candidates_of
+from plisse.studio.candidates import Choice, candidates_of
 from plisse.studio.downloads import Order, made
 from plisse.studio.marks import Reference, overlap_of, reference_of, seed_line, trouble_of
-from plisse.studio.view import Tint, View, flat_view, folded_view, posed_view, tinted
+from plisse.studio.view import Tint, View, flat_view, folded_view, plates_view, posed_view, tinted
 from plisse.transform.collisions import FreeRange
 from plisse.transform.offset import offset_range
 
@@ -57,7 +56,7 @@ class Found:
     """What a solved design looks like, and the report that proves it.
 
     `trouble` (3,) is the place of the first problem that the report names, `overlap` (2,) that on the sheet; `seed` (N, 3)
-    is the curve the design starts from, `axes` (3, 3) the camera that shows most. `drafted` designs have fewer samples than
+    is the curve the design starts from, `camera` the one that shows most. `drafted` designs have fewer samples than
     asked for.
     """
 
@@ -68,7 +67,7 @@ class Found:
     seed: np.ndarray | None = None
     trouble: np.ndarray | None = None
     overlap: np.ndarray | None = None
-    axes: np.ndarray | None = None
+    camera: Camera | None = None
     reference: Reference | None = None
     tint: Tint | None = None
 
@@ -92,7 +91,7 @@ class Solve(Request):
             return found
         return replace(found, folded=folded_view(structure), trouble=trouble_of(structure, report),
                        sheet=None if structure.development is None else flat_view(structure),
-                       overlap=overlap_of(structure, report), axes=best_view(structure).axes if self.framed else None,
+                       overlap=overlap_of(structure, report), camera=best_view(structure) if self.framed else None,
                        tint=self._tint(result) if self.colour else None)
 
     def _tint(self, result: Result) -> Tint | None:
@@ -141,8 +140,7 @@ class Solid(Request):
         structure = required(bench.result(self.recipe))
         if self.kind == "offset":
             return folded_view(structure.offset(self.length))
-        view = folded_view(plates_mesh(structure.plates(self.length)))
-        return replace(view, lines={"plate": view.lines["boundary"]})
+        return plates_view(structure.plates(self.length))
 
 
 @dataclass(frozen=True)
@@ -171,14 +169,14 @@ class Reach(Request):
 
 @dataclass(frozen=True)
 class Candidates(Request):
-    """Automatic layouts over a surface, all of them as one picture and each as a design."""
+    """Automatic layouts over a surface, each as a picture and as a design."""
 
     limit: ClassVar[float] = 300.0
     recipe: SurfaceDesign
     count: int = 6
 
-    def run(self, bench: Bench, progress: Progress) -> tuple[bytes, list[tuple[str, dict]]]:
-        """PNG bytes, and for every candidate what it says and the changes that make it the design."""
+    def run(self, bench: Bench, progress: Progress) -> list[Choice]:
+        """The layouts, the best first."""
         return candidates_of(self.recipe, self.count, progress)
 
 

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from plisse.draw import colours
+from plisse.draw.camera import Camera
+from plisse.studio.framing import FIELD_OF_VIEW, SEEN, TINY, Manner, SheetPlace, Stand, Window, beside
 from plisse.studio.paper import Paper, Shown, ink_bytes
 from plisse.studio.requests import Found
+from plisse.studio.shading import Grooves, light, textured
 from plisse.studio.view import Tint, View
 
 if TYPE_CHECKING:
@@ -20,12 +24,8 @@ __all__ = ["Scene"]
 GLASS, OPEN = "#7f9bb0", "#d99a2b"
 SEED, MARK = colours.INK, colours.MOUNTAIN
 MARKS, OVERLAP = ("/trouble", "/trouble/words", "/seed"), ("/overlap", "/overlap/words")
-SURFACES = {True: ("/reference/covered", GLASS, 0.25), False: ("/reference/open", OPEN, 0.55)}
-APART, SMALLEST = 0.12, 0.72
-FIELD_OF_VIEW = np.radians(30)
-DIRECTION = np.array([-0.5, 0.6, 0.62])  # right, up, towards the viewer
-SUNLIGHT, SKYLIGHT, GROUND = (255, 246, 232), (255, 255, 255), (196, 178, 160)
-SUN, SKY = 6.5, 2.6
+SURFACES = {True: ("/reference/covered", GLASS, 0.25), False: ("/reference/open", OPEN, 0.4)}
+CALM = 1.1  # how much nearer the camera must come before the sheet lies elsewhere
 
 
 class Scene:
@@ -36,10 +36,16 @@ class Scene:
         self._client, self._scene = client, client.scene
         self._found: Found | None = None
         self._view: View | None = None
-        self._axes = np.eye(3)
+        self._best = Camera(np.eye(3), np.array([0.0, 1.0, 0.0]))
+        self._manner = Manner(below=client.camera.aspect < 1)
+        self._known: np.ndarray | None = None
+        self._stood: Stand | None = None
+        self._aspect = client.camera.aspect
+        client.camera.on_update(self._resized)
         self._tint = None
         self.is_pale = False
         self._folded, self._sheet = Paper(client.scene, "/folded"), Paper(client.scene, "/sheet")
+        self._grooves = Grooves(client.scene, "/grooves", self._folded)
 
     @property
     def extent(self) -> tuple[np.ndarray, float]:
@@ -57,7 +63,7 @@ class Scene:
         found = self._found
         if found is None or found.sheet is None or found.folded is None or self.is_pale or not self.shown.sheet:
             return 0.0
-        return self._sheet_place(found)[1]
+        return self._sheet_place(found).scale
 
     @property
     def points(self) -> np.ndarray:
@@ -73,32 +79,43 @@ class Scene:
     def show(self, found: Found) -> None:
         """Show a solved design; what it lacks disappears."""
         self._found, self.is_pale = found, False
-        if found.axes is not None:
-            self._axes = found.axes
+        if found.camera is not None:
+            self._best = found.camera
         with self._client.atomic():
-            self.pose(found.folded)
+            self._put(found.folded)
             self._show_around(found)
 
     def pose(self, view: View | None) -> None:
         """Show another state, or plates, instead of the structure; marks that belong to it disappear."""
+        self._put(view)
+        self.follow()
+
+    def _put(self, view: View | None) -> None:
         with self._client.atomic():
             self._drop_tint()
             self._view = view
             self._folded.show(view, self.shown)
+            self._grooves.wait(view)
             self._remove(MARKS)
 
     def tint(self, tint: Tint) -> None:
         """Lay colours over the structure."""
         with self._client.atomic():
             self._drop_tint()
+            self._grooves.leave()
             self._folded.hide_paper()
-            self._tint = self._scene.add_mesh_trimesh("/colours", _textured(tint), cast_shadow=False, receive_shadow=False)
+            self._tint = self._scene.add_mesh_trimesh("/colours", textured(tint), cast_shadow=False, receive_shadow=False)
+
+    def close(self) -> None:
+        """Change nothing any more: the tab is closed."""
+        self._grooves.stop()
 
     def pale(self) -> None:
         """Show that what is on screen is not the structure of the design any more."""
         self.is_pale = True
         with self._client.atomic():
             self._drop_tint()
+            self._grooves.leave()
             self._remove((*MARKS, *OVERLAP))
             for paper in (self._folded, self._sheet):
                 paper.pale()
@@ -109,34 +126,77 @@ class Scene:
             return
         with self._client.atomic():
             self._folded.show(self._view, self.shown)
-            if self._tint is not None:
+            if self._tint is None:
+                self._grooves.wait(self._view)
+            else:
                 self._folded.hide_paper()
             self._remove(MARKS)
             self._show_around(self._found)
 
     def frame(self) -> None:
-        """Move the camera to where the whole structure, and the sheet beside it, is well seen."""
-        middle, radius = self.extent
-        found = self._found
-        if found is not None and found.sheet is not None and self.shown.sheet:
-            side, towards = self._sheet_place(found)[2], -self._axes[1] if self._is_upright else self._axes[0]
-            middle, radius = middle + 0.5 * side * towards, radius + 0.5 * side
+        """Move the camera to where the whole structure, and the sheet beside it, is best seen."""
+        self._lay_sheet()
         camera = self._client.camera
-        half = np.arctan(np.tan(0.5 * FIELD_OF_VIEW) * min(1.0, camera.aspect))
         camera.fov = FIELD_OF_VIEW
-        distance = 1.05 * radius / np.sin(half)
-        camera.near, camera.far = 0.002 * distance, 50 * distance
-        camera.position = middle + self._axes[2] * distance
-        camera.look_at = middle
-        camera.up_direction = self._axes[1]
-        self._light(middle, radius)
+        self._stand(self._best)
+        light(self._scene, self._best.axes, *self.extent)
 
-    def _light(self, middle: np.ndarray, radius: float) -> None:
-        """Light from the upper left, as in the pictures of the command line, and from the sky."""
-        self._scene.add_light_directional("/sun", color=SUNLIGHT, intensity=SUN, cast_shadow=False,
-                                          position=middle + 20 * radius * (DIRECTION @ self._axes))
-        self._scene.add_light_hemisphere("/sky", sky_color=SKYLIGHT, ground_color=GROUND, intensity=SKY,
-                                         position=middle + self._axes[1])
+    def follow(self) -> None:
+        """Move the camera back or forth where what it showed has left the window or become small; else leave it alone."""
+        points, known, camera = self._everything, self._known, self._client.camera
+        self._known = points
+        if known is None or not len(known) or not len(points):
+            return
+        window = Window.of(camera)
+        before, now = window.reach(known, camera), window.reach(points, camera)
+        if (now > SEEN >= before) or (now < TINY <= before):
+            self._stand(Camera.looking_from(camera.position - camera.look_at, camera.up_direction))
+
+    async def _resized(self, camera) -> None:
+        """Fill a window whose shape has changed, unless somebody has moved the camera."""
+        stood = self._stood  # a browser that has not heard of it yet is still elsewhere, and will say so again
+        if stood is None or camera.aspect == self._aspect:
+            return
+        if np.allclose(camera.position, stood.position, atol=1e-3 * stood.distance):
+            self._lay_sheet()
+            self._stand(Camera.looking_from(camera.position - camera.look_at, camera.up_direction))
+
+    def _stand(self, view: Camera) -> None:
+        """Put the camera where everything fills the window as seen in a direction."""
+        camera, points = self._client.camera, self._everything
+        stand = Window.of(camera).stand(points, view.axes)
+        self._stood, self._aspect = stand, camera.aspect
+        camera.near, camera.far = 0.002 * stand.distance, 50 * stand.distance
+        camera.position, camera.look_at, camera.up_direction = stand.position, stand.middle, view.upright
+        self._known = points
+
+    @property
+    def _everything(self) -> np.ndarray:
+        """Points (N, 3) of what is to be seen: the paper on screen, and the sheet where it is shown."""
+        found = self._found
+        if found is None or self._view is None:
+            return np.empty((0, 3))
+        if found.sheet is None or found.folded is None or not self.shown.sheet:
+            return self._view.points
+        return np.concatenate([self._view.points, self._sheet_place(found).placed(found.sheet.points)])
+
+    def _lay_sheet(self) -> None:
+        """Choose on which side the sheet lies, and how it is turned, so that everything is large."""
+        found = self._found
+        if found is None or found.folded is None or found.sheet is None or not self.shown.sheet:
+            return
+        manners = [self._manner, *(Manner(*flags) for flags in itertools.product((False, True), repeat=3))]
+        self._manner = min(manners, key=lambda manner: self._distance(manner, found))
+        self._show_sheet(found)
+
+    def _distance(self, manner: Manner, found: Found) -> float:
+        """How far the camera would be from everything, a little more where the sheet is not as it was or reduced."""
+        assert found.folded is not None
+        assert found.sheet is not None
+        flat, axes = found.sheet.points[:, :2], self._best.axes
+        points = np.concatenate([found.folded.points, beside(found.folded.points, flat, axes, manner).placed(flat)])
+        reluctance = CALM ** (int(manner != self._manner) + manner.reduced)
+        return Window.of(self._client.camera).stand(points, axes).distance * reluctance
 
     def _show_around(self, found: Found) -> None:
         self._show_sheet(found)
@@ -159,39 +219,21 @@ class Scene:
         self._remove(OVERLAP)
         if view is None or found.folded is None:
             return
-        place, scale, _ = self._sheet_place(found)
-        self._sheet.place(place, scale, _quaternion(self._axes))
+        place = self._sheet_place(found)
+        self._sheet.place(place.origin, place.scale, place.turn)
         if found.overlap is not None:
-            at = place + scale * (found.overlap @ self._axes[:2])
-            self._mark("/overlap", at, 0.015 * self.extent[1], "overlaps here")
+            self._mark("/overlap", place.placed(found.overlap), 0.015 * self.extent[1], "overlaps here")
 
-    @property
-    def _is_upright(self) -> bool:
-        """Whether the window is higher than wide, so that the sheet lies below."""
-        return self._client.camera.aspect < 1
-
-    def _sheet_place(self, found: Found) -> tuple[np.ndarray, float, float]:
-        """Origin (3,) of the sheet, its scale, and how far it reaches beyond the structure."""
+    def _sheet_place(self, found: Found) -> SheetPlace:
+        """Where the sheet lies beside the structure as it was designed."""
         assert found.sheet is not None
         assert found.folded is not None
-        seen = found.folded.points @ self._axes.T
-        low, high = seen.min(axis=0), seen.max(axis=0)
-        flat = found.sheet.points[:, :2]
-        size, room = np.ptp(flat, axis=0), float(np.linalg.norm(high - low))
-        scale = 1 / max(1, np.ceil(SMALLEST * float(np.linalg.norm(size)) / room - 0.1))
-        gap, corner = APART * room, 0.5 * (low + high)
-        corner[:2] -= 0.5 * scale * size
-        if self._is_upright:
-            corner[1] = low[1] - gap - scale * size[1]
-        else:
-            corner[0] = high[0] + gap
-        corner[:2] -= scale * flat.min(axis=0)
-        return corner @ self._axes, float(scale), float(gap + scale * size[1 if self._is_upright else 0])
+        return beside(found.folded.points, found.sheet.points[:, :2], self._best.axes, self._manner)
 
     def _show_marks(self, found: Found) -> None:
         if found.seed is not None and self.shown.seed:
             line = np.stack([found.seed[:-1], found.seed[1:]], axis=1).astype(np.float32)
-            self._scene.add_line_segments("/seed", line, ink_bytes(SEED), thickness=3.0, thickness_units="screen")
+            self._scene.add_line_segments("/seed", line, ink_bytes(SEED), thickness=2.2, thickness_units="screen")
         if found.trouble is not None:
             self._mark("/trouble", found.trouble, 0.02 * self.extent[1], "problem here")
 
@@ -210,26 +252,3 @@ class Scene:
             if chosen.any():
                 self._scene.add_mesh_simple(name, reference.points, reference.triangles[chosen], color=ink_bytes(ink),
                                             opacity=opacity, side="double", cast_shadow=False, receive_shadow=False)
-
-
-def _textured(tint: Tint):
-    """A trimesh.Trimesh with the scale as its texture, the last pixel for what is unknown."""
-    from PIL import Image
-    from trimesh import Trimesh
-    from trimesh.visual import TextureVisuals
-    from trimesh.visual.material import PBRMaterial
-
-    unknown = np.round(255 * colours.rgb(colours.UNKNOWN)).astype(np.uint8)
-    strip = np.concatenate([tint.bar, unknown[None]])[None].repeat(2, axis=0)
-    last = len(tint.bar)
-    column = np.where(np.isnan(tint.shares), last, np.nan_to_num(tint.shares) * (last - 1))
-    places = np.column_stack([(column + 0.5) / (last + 1), np.full(len(column), 0.5)])
-    paint = PBRMaterial(baseColorTexture=Image.fromarray(strip), metallicFactor=0.0, roughnessFactor=1.0, doubleSided=True)
-    return Trimesh(tint.points, tint.triangles, visual=TextureVisuals(uv=places, material=paint), process=False)
-
-
-def _quaternion(axes: np.ndarray) -> np.ndarray:
-    """The turn (w, x, y, z) that takes the plane's axes to rows of `axes` (3, 3)."""
-    from scipy.spatial.transform import Rotation
-
-    return Rotation.from_matrix(axes.T).as_quat()[[3, 0, 1, 2]]

@@ -25,7 +25,7 @@ class SeriesPanel:
         gui = tab.client.gui
         self._folder = gui.add_folder(f"{words[0].upper()}{words[1:]} of single {self._part}s", expand_by_default=False)
         with self._folder:
-            self._kind = gui.add_dropdown(f"{words} is", kinds)
+            self._kind = gui.add_dropdown(f"{words} is", kinds, hint=f"One number for all, or one for every {self._part}")
             self._rows = gui.add_folder("Values", visible=False)
         self._kind.on_update(self._turned)
         self._controls: list[Any] = []
@@ -67,9 +67,13 @@ class SeriesPanel:
     def _build_rows(self, series: Series) -> None:
         gui, (low, high, step) = self._tab.client.gui, self._limits(series)
         for k, number in enumerate(series.value[:MOST_ROWS]):  # type: ignore[index]
-            row = gui.add_slider(f"{self._words}, {self._part} {k + 1}", low, high, step, float(number))
+            row = gui.add_slider(f"{self._words}, {self._part} {k + 1} ({self._unit})", low, high, step, float(number))
             row.on_update(self._pulled(k))
             self._controls.append(row)
+
+    @property
+    def _unit(self) -> str:
+        return "°" if self._key == "pattern.theta" else self._tab.desk.recipe.units
 
     def _limits(self, series: Series) -> tuple[float, float, float]:
         if self._key == "pattern.theta":
@@ -86,9 +90,10 @@ class SeriesPanel:
 
     def _build_place(self, series: Series) -> None:
         gui, count = self._tab.client.gui, len(series.value)  # type: ignore[arg-type]
-        number = gui.add_slider("place", 1, count, 1, 1)
-        place = gui.add_vector2(f"position (%), {self._words}", (0.0, 0.0), step=0.1)
-        edit = gui.add_button_group("places", ("add", "remove"))
+        number = gui.add_slider("place", 1, count, 1, 1, hint="Which of the places along the curve is set below")
+        place = gui.add_vector2(f"position (%), {self._words} ({self._unit})", (0.0, 0.0), step=0.1,
+                                hint="Where along the curve, in percent of its length, and the number there")
+        edit = gui.add_button_group("places", ("add", "remove"), hint="A place after this one, or without this one")
         self._controls += [number, place, edit]
         number.on_update(self._numbered)
         place.on_update(self._placed)

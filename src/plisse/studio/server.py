@@ -15,6 +15,7 @@ from plisse.studio.gate import Gate
 from plisse.studio.inside import forbid_sharing
 from plisse.studio.page import with_additions
 from plisse.studio.tab import Tab
+from plisse.studio.worker import Spare
 
 if TYPE_CHECKING:
     from viser import ClientHandle, ViserServer
@@ -37,6 +38,7 @@ class Studio:
         self._first = recipe, title
         with _guarded(gate), contextlib.redirect_stdout(io.StringIO()):
             self._server: ViserServer = viser.ViserServer(gate.host, port, label="plisse studio", verbose=False)
+        self._spare = Spare()
         forbid_sharing(self._server)
         self._server.gui.configure_theme(control_width="large", show_logo=False, show_share_button=False)
         self._server.scene.world_axes.visible = False
@@ -61,9 +63,11 @@ class Studio:
         for tab in list(self.tabs.values()):
             tab.close()
         self.tabs.clear()
+        self._spare.close()
 
     async def _welcome(self, client: ClientHandle) -> None:
-        self.tabs[client.client_id] = Tab(client, *self._first, loop=self._server.get_event_loop())
+        self.tabs[client.client_id] = Tab(client, *self._first, loop=self._server.get_event_loop(),
+                                          start=self._spare.take)
 
     async def _take_leave(self, client: ClientHandle) -> None:
         tab = self.tabs.pop(client.client_id, None)

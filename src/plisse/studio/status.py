@@ -1,18 +1,21 @@
 """The words that always stand on screen: status, the report's sentences, the numbers that matter."""
 
+import math
 from dataclasses import dataclass
 from html import escape
 
 from plisse.result import Report
 from plisse.studio.requests import Found
+from plisse.studio.words import spoken
 from plisse.transform.collisions import FreeRange
 
-__all__ = ["Status", "broken", "numbers_of", "refused", "remark", "solved", "working"]
+__all__ = ["Status", "broken", "numbers_of", "refused", "remark", "size_text", "solved", "working"]
 
 MARKS = {"exact": ("✔", "#1f6b4a"), "approximate": ("≈", "#8a5a00"), "infeasible": ("✖", "#9b2f24"),
          "draft": ("…", "#4d463f")}
 STYLE = "font-size:0.86em;line-height:1.35;padding:0.3em 0.7em"
 MOST_SENTENCES = 6
+METRES = 10_000.0  # mm from which sizes are in metres
 
 
 @dataclass(frozen=True)
@@ -26,7 +29,7 @@ class Status:
 def solved(found: Found, title: str, above: str = "") -> Status:
     """Status, numbers and sentences of a solved design; those of a draft say that they are of a draft."""
     report = found.report
-    sentences = [*report.reasons, *report.warnings]
+    sentences = [spoken(sentence) for sentence in (*report.reasons, *report.warnings)]
     more = [f"and {len(sentences) - MOST_SENTENCES} more; the report has them all"] * (len(sentences) > MOST_SENTENCES)
     listed = "".join(f"<li>{escape(sentence)}</li>" for sentence in sentences[:MOST_SENTENCES] + more)
     note = f"coarse while you pull: {report.vertices:,} vertices" if found.drafted else title
@@ -45,6 +48,7 @@ def remark(is_pale: bool, percent: float, free: FreeRange | None) -> str:
 
 def refused(sentence: str, found: Found | None, title: str) -> Status:
     """Why something was not done, above the status of what is still on screen."""
+    sentence = spoken(sentence)
     if found is None:
         return _status("infeasible", "not done", sentence)
     status = solved(found, title, _alert("not done", sentence))
@@ -53,7 +57,7 @@ def refused(sentence: str, found: Found | None, title: str) -> Status:
 
 def broken(sentence: str, before: Found | None) -> Status:
     """Why a design has no structure; what is pale on screen is that of the design before."""
-    return _status("infeasible", "not done", sentence, "" if before is None else
+    return _status("infeasible", "not done", spoken(sentence), "" if before is None else
                    f"<div>Pale is what was there before.</div>{_pale(before)}")
 
 
@@ -75,14 +79,27 @@ def numbers_of(report: Report) -> list[tuple[str, str]]:
         rows.append(("openings", f"{report.opening_angle_deg.min:.1f}° to {report.opening_angle_deg.max:.1f}°"))
     if report.development is not None:
         width, height = report.development.size_mm
-        rows.append(("sheet", f"{width:.0f} × {height:.0f} mm" + ", overlaps itself" * report.development.overlaps))
+        rows.append(("sheet", size_text(width, height) + ", overlaps itself" * report.development.overlaps))
     if report.coverage is not None:
         rows.append(("coverage", f"{100 * report.coverage:.1f} %"))
     if report.deviation is not None:
         rows.append(("deviation", f"{report.deviation.mean_amplitudes:.2f} amplitudes on average"))
     if "total" in report.seconds:
-        rows.append(("solved in", f"{1000 * report.seconds['total']:.0f} ms"))
+        seconds = report.seconds["total"]
+        rows.append(("solved in", f"{1000 * seconds:.0f} ms" if seconds < 10 else f"{seconds:.0f} s"))
     return rows
+
+
+def size_text(width: float, height: float) -> str:
+    """A size in millimetres to three digits, in metres where that is easier to read."""
+    metre, unit = (1000.0, "m") if max(width, height) >= METRES else (1.0, "mm")
+    return " × ".join(_digits(length / metre) for length in (width, height)) + f" {unit}"
+
+
+def _digits(length: float) -> str:
+    """A length to three digits, or to all that stand before the point."""
+    places = max(0, 2 - math.floor(math.log10(length))) if length > 0 else 0
+    return f"{length:.{places}f}".rstrip("0").rstrip(".") if places else f"{length:.0f}"
 
 
 def _alert(word: str, sentence: str) -> str:

@@ -14,12 +14,15 @@ from plisse.studio.picking import first_hit
 from plisse.studio.shelf import LARGEST_MESH, MESH_FORMATS
 
 if TYPE_CHECKING:
+    from plisse.studio.candidates import Choice
     from plisse.studio.tab import Tab
 
 __all__ = ["SurfacePanel", "kept_guide", "shape_of"]
 
 NOTHING, CENTRE, GUIDE = "turns the view", "sets the centre", "adds a guide point"
 DOT = "/guide"
+COUNT_HINT = "How many layouts are tried, the best shown first; one that covers all with ease ends the search"
+CLICK_HINT = "Rows of pleats are laid around the centre; along a guide creases start one beside the other"
 SHAPE = ("file", "edited_file", "handles", "height", "radius", "torus", "x", "y")
 WORDS = (f"Upload a mesh ({', '.join(MESH_FORMATS)}, up to {LARGEST_MESH // 1_000_000} MB). It is read as data on this "
          "machine and goes nowhere else.")
@@ -53,9 +56,9 @@ class SurfacePanel:
         gui.add_upload_button("Upload a mesh …", icon="upload", mime_type=",".join(MESH_FORMATS)).on_upload(self._uploaded)
         self._folder = gui.add_folder("Layout")
         with self._folder:
-            self._count = gui.add_slider("layouts to try", 1, 20, 1, 6)
+            self._count = gui.add_slider("layouts at most", 1, 20, 1, 6, hint=COUNT_HINT)
             self._search = gui.add_button("Search for layouts", icon="search")
-            self._click = gui.add_dropdown("a click on the surface", (NOTHING, CENTRE, GUIDE))
+            self._click = gui.add_dropdown("a click on the surface", (NOTHING, CENTRE, GUIDE), hint=CLICK_HINT)
             self._forget = gui.add_button("Forget guide and centre")
             self._results = gui.add_folder("Candidates", visible=False)
         self._shown: list = []
@@ -77,19 +80,19 @@ class SurfacePanel:
         if guide != self._guide:
             self._begin_guide(guide)
 
-    def show_candidates(self, picture: bytes, choices: list[tuple[str, dict]]) -> None:
-        """Show the picture of all layouts and a button for each."""
+    def show_candidates(self, choices: list[Choice]) -> None:
+        """Show a picture of every layout and a button that takes it."""
         from PIL import Image
 
         self._forget_candidates()
         self._results.visible = True
         with self._results:
-            image = np.asarray(Image.open(io.BytesIO(picture)).convert("RGB"))
-            self._shown.append(self._gui.add_image(image, label="layouts, seen from above"))
-            for words, changes in choices:
-                button = self._gui.add_button(words)
-                button.on_click(self._taken(changes))
-                self._shown.append(button)
+            for number, choice in enumerate(choices, 1):
+                image = np.asarray(Image.open(io.BytesIO(choice.picture)).convert("RGB"))
+                picture = self._gui.add_image(image, label=f"layout {number}, seen from above")
+                button = self._gui.add_button(choice.words)
+                button.on_click(self._taken(choice.changes))
+                self._shown += [picture, button]
 
     def _forget_candidates(self) -> None:
         for node in self._shown:

@@ -22,7 +22,7 @@ from plisse.studio.requests import Colour, Found, Pose, Request, Solid, Solve
 from plisse.studio.scene import Scene
 from plisse.studio.status import broken, refused, remark, solved, working
 from plisse.studio.uploads import Uploads
-from plisse.studio.worker import Worker
+from plisse.studio.worker import Process, Worker
 from plisse.transform.collisions import DESIGNED, FreeRange
 
 if TYPE_CHECKING:
@@ -31,14 +31,14 @@ if TYPE_CHECKING:
 __all__ = ["Tab"]
 
 LATE = 0.4  # seconds after which a solve is said to be under way
-REST, LONGER = 0.08, 1.0  # seconds without a change before a full answer, and before what takes longer, is asked for
+REST, LONGER = 0.08, 2.0  # seconds without a change before a full answer, and before what takes longer, is asked for
 
 
 class Tab:
     """Everything behind a tab; `close` ends its processes and removes its files."""
 
     def __init__(self, client: ClientHandle, recipe: Recipe, title: str, *,
-                 loop: asyncio.AbstractEventLoop):
+                 loop: asyncio.AbstractEventLoop, start: Callable[[], Process] | None = None):
         self.client, self._loop = client, loop
         self.desk, self._pace = Desk(recipe, title), Pace()
         self.found: Found | None = None
@@ -47,12 +47,13 @@ class Tab:
         self.percent = DESIGNED
         self.is_open = True
         self._framed = self._is_refused = False
+        self._refusal = ""
         self._rest: asyncio.TimerHandle | None = None
         self.free: FreeRange | None = None
         self._asked: Solve | None = None
         self._watch: asyncio.TimerHandle | None = None
         self._is_late = False
-        self._hands = Worker(self.deliver)
+        self._hands = Worker(self.deliver, start)
         self._uploads = Uploads(client)
         self.errands = Errands(self)
         self.scene = Scene(client)
@@ -69,6 +70,7 @@ class Tab:
             self.refuse(str(error))
             return self.panels.refresh()
         if self.desk.step is not before:
+            self._is_refused = False
             self._solve()
         elif self._is_refused:
             self.say_found()
@@ -110,7 +112,7 @@ class Tab:
 
     def refuse(self, sentence: str) -> None:
         """Say that something was not done; what is on screen stays."""
-        self._is_refused = True
+        self._is_refused, self._refusal = True, sentence
         self.panels.say(refused(sentence, self.found, self.desk.step.title))
 
     def say_found(self) -> None:
@@ -139,6 +141,7 @@ class Tab:
         for timer in (self._rest, self._watch):
             if timer is not None:
                 self._loop.call_soon_threadsafe(timer.cancel)
+        self._loop.call_soon_threadsafe(self.scene.close)
         self._hands.close()
         self.errands.close()
         self.desk.close()
@@ -256,8 +259,13 @@ class Tab:
             self._framed = True
             self.scene.frame()
             self.panels.fit(self.scene.extent[1])
+        elif not self.handles.is_pulled:
+            self.scene.follow()
         self.show_handles()
-        self.say_found()
+        if self._is_refused:
+            self.refuse(self._refusal)  # which came while this was solved
+        else:
+            self.say_found()
         self.panels.forget_reach()
         self.panels.refresh()
         if not request.drafted:

@@ -20,11 +20,13 @@ class TakePanel:
     def __init__(self, tab: Tab):
         self._tab, gui = tab, tab.client.gui
         with gui.add_folder("Files"):
-            self._kind = gui.add_dropdown("format", tuple(KINDS))
-            self._material = gui.add_vector2("material of pieces (mm)", MATERIAL, min=SMALLEST, max=LARGEST, step=1.0)
+            self._kind = gui.add_dropdown("format", tuple(KINDS), hint="What is made of the design on screen")
+            self._material = gui.add_vector2("material of pieces (mm)", MATERIAL, min=SMALLEST, max=LARGEST, step=1.0,
+                                              hint="Width and height of the sheets that you have; pieces are nested on them")
             gui.add_button("Download", icon="download").on_click(self._taken)
         with gui.add_folder("Design as text"):
-            self._text = gui.add_text("design (TOML)", "", multiline=True)
+            self._text = gui.add_text("design (TOML)", "", multiline=True,
+                                      hint="Change it, then read it; plisse make takes it, too")
             gui.add_button("Read the text above").on_click(self._read)
             gui.add_button("Download the text", icon="download").on_click(self._saved)
             gui.add_upload_button("Open a design file …", icon="upload", mime_type=".toml").on_upload(self._uploaded)

@@ -1,5 +1,7 @@
 """Requests of one client, answered outside of the server's process: the newest wins, a crash ends one request only."""
 
+from __future__ import annotations
+
 import contextlib
 import pickle
 import queue
@@ -13,11 +15,12 @@ from plisse.studio.child import Answer, Failure, Stage
 from plisse.studio.requests import Request
 from plisse.threads import child_environment
 
-__all__ = ["Worker"]
+__all__ = ["Process", "Spare", "Worker"]
 
 PATIENCE = 2.0  # seconds that a stale request may still take before its process is ended
 START = 60.0
-COMMAND = "from plisse.studio.child import main; main()"
+LATER = 3.0  # seconds after a spare process was taken until the next one is started
+COMMAND = "from plisse.studio.child import main; main(patient={})"
 
 Deliver = Callable[[Request, Answer | Failure | Stage], None]
 
@@ -29,13 +32,13 @@ class Worker:
     process is ended where it does not listen. `deliver` is called from the thread, never for stale requests.
     """
 
-    def __init__(self, deliver: Deliver):
-        self._deliver = deliver
+    def __init__(self, deliver: Deliver, start: Callable[[], Process] | None = None):
+        self._deliver, self._start = deliver, start or Process
         self._waiting: dict[str, tuple[int, Request]] = {}
         self._changed = threading.Condition()
         self._count = 0
         self._closed = False
-        self._process: _Process | None = None
+        self._process: Process | None = None
         self._thread = threading.Thread(target=self._work, name="plisse-studio-worker", daemon=True)
         self._thread.start()
 
@@ -63,6 +66,8 @@ class Worker:
         if process is not None:
             process.end()
         self._thread.join(timeout=5)
+        if self._process is not None and self._process is not process:
+            self._process.end()  # the thread was just starting it
 
     def _work(self) -> None:
         while (entry := self._next()) is not None:
@@ -88,7 +93,7 @@ class Worker:
             self._process.end()
             self._process = None
         if self._process is None:
-            self._process = _Process()
+            self._process = self._start()
         process, begun, told = self._process, monotonic(), False
         process.send(number, request)
         while True:
@@ -114,12 +119,12 @@ class Worker:
                     number, f"this took longer than {request.limit:.0f} seconds and was ended; try something smaller")
 
 
-class _Process:
-    """A process that answers, and the thread that listens to it."""
+class Process:
+    """A process that answers, and the thread that listens to it; patient ones let others go first."""
 
-    def __init__(self):
-        self._popen = subprocess.Popen([sys.executable, "-c", COMMAND], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                       env=child_environment())
+    def __init__(self, patient: bool = False):
+        self._popen = subprocess.Popen([sys.executable, "-c", COMMAND.format(patient)], stdin=subprocess.PIPE,
+                                       stdout=subprocess.PIPE, env=child_environment())
         self._messages: queue.SimpleQueue = queue.SimpleQueue()
         self._ended = threading.Event()
         self.is_new = True
@@ -168,3 +173,42 @@ class _Process:
                 self._messages.put(pickle.load(self._popen.stdout))  # type: ignore[arg-type]
         except (EOFError, OSError, ValueError, pickle.UnpicklingError):
             self._ended.set()
+
+
+class Spare:
+    """A process that is started before somebody needs it, because that takes longer than most of what it is asked for."""
+
+    def __init__(self):
+        self._changed = threading.Lock()
+        self._process: Process | None = Process()
+        self._closed = False
+        self._later: threading.Timer | None = None
+
+    def take(self) -> Process:
+        """The process that is ready, or else a new one; the next one is started a little later."""
+        with self._changed:
+            process, self._process = self._process, None
+            if not self._closed and (self._later is None or not self._later.is_alive()):
+                self._later = threading.Timer(LATER, self._refill)
+                self._later.daemon = True
+                self._later.start()
+        if process is not None and process.is_alive:
+            return process
+        if process is not None:
+            process.end()
+        return Process()
+
+    def close(self) -> None:
+        """End the process; there will be no next one."""
+        with self._changed:
+            self._closed = True
+            process, self._process = self._process, None
+        if self._later is not None:
+            self._later.cancel()
+        if process is not None:
+            process.end()
+
+    def _refill(self) -> None:
+        with self._changed:
+            if not self._closed and self._process is None:
+                self._process = Process()

@@ -31,9 +31,10 @@ def test_a_design_is_changed_taken_away_and_taken_back_to_the_very_same_files(vi
     for defect in defects(json.loads(other[1])):
         assert defect < 1e-9
     assert (name, other[0]) == ("a-wave.fold", "a-wave.fold")
-    for _ in range(5):
+    while tab.desk.can_undo:
+        before = tab.desk.step
         visitor.button("undo")
-    until(lambda: not tab.desk.can_undo)
+        until(lambda before=before: tab.desk.step is not before)
     assert visitor.text == first
     assert visitor.download("FOLD")[1] == file != other[1]
     visitor.page.locator("canvas").first.focus()
@@ -69,20 +70,20 @@ def test_a_control_point_is_pulled(visitor):
     arrows = tab.handles.arrows
     until(lambda: arrows.position[0] == before[1][0])
     visitor.rest()
-    tip = arrows.position + np.array([0, 0.6 * arrows.scale, 0])
+    tip = arrows.position + np.array([0, 0, 0.6 * arrows.scale])
     visitor.frame(frames)
     mouse.move(*visitor.place_of(tip))
     time.sleep(0.5)
     mouse.down()
     for step in range(1, 11):
-        mouse.move(*visitor.place_of(tip + np.array([0, 0.5 * step, 0])))
+        mouse.move(*visitor.place_of(tip + np.array([0, 0, 0.5 * step])))
         visitor.frame(frames)
     mouse.up()
-    until(lambda: tab.desk.recipe.curve.points[1][1] > before[1][1] + 3)
+    until(lambda: tab.desk.recipe.curve.points[1][2] > before[1][2] + 3)
     until(lambda: not tab.handles.is_pulled)
     after = tab.desk.recipe.curve.points
     assert [after[0], *after[2:]] == [before[0], *before[2:]]
-    assert after[1][::2] == pytest.approx(before[1][::2], abs=0.01)
+    assert after[1][:2] == pytest.approx(before[1][:2], abs=0.01)
     until(lambda: tab.found.report.design["curve"]["points"] == after and not tab.found.drafted)
     visitor.wait_for("exact")
     visitor.frame(frames)
@@ -117,7 +118,7 @@ def test_inclinations_and_widths_are_set_one_by_one_and_along_the_curve(visitor)
 
     visitor.fold_out("Width of single strips")
     visitor.choose("width is", "one by one")
-    visitor.slide("width, strip 2", "ArrowRight")
+    visitor.slide("width, strip 2 (mm)", "ArrowRight")
     until(lambda: pattern().width[1] > 5 and pattern().width[2:] == [5] * 4)
     visitor.slide("creases", "ArrowRight")
     until(lambda: pattern().creases == 8 and len(pattern().width) == 7)
@@ -126,7 +127,7 @@ def test_inclinations_and_widths_are_set_one_by_one_and_along_the_curve(visitor)
     until(lambda: pattern().width == [[0, 5], [0.5, 7], [1, 5]])
     visitor.fold_out("Inclination θ of single creases")
     visitor.choose("inclination θ is", "one by one")
-    visitor.slide("inclination θ, crease 8", "ArrowLeft")
+    visitor.slide("inclination θ, crease 8 (°)", "ArrowLeft")
     until(lambda: pattern().theta[:7] == [40] * 7 and pattern().theta[7] < 40)
     until(lambda: tab.found.report.design["pattern"]["theta"] == pattern().theta and not tab.found.drafted)
     visitor.wait_for("exact")
@@ -152,7 +153,7 @@ def test_what_is_refused_or_infeasible_is_said_with_its_place_and_can_be_taken_b
     box = visitor.page.get_by_label("design (TOML)")
     box.fill(before.replace("creases = 7", "creases = 2"))
     visitor.button("Read the text above")
-    visitor.wait_for("pattern.creases is 2; give a whole number from 3 to 1000")
+    visitor.wait_for("“creases” is 2; give a whole number from 3 to 1000")
     assert tab.desk.toml == before
     assert "exact" in visitor.status
     visitor.wait_for("smallest sector")
@@ -167,3 +168,62 @@ def test_what_is_refused_or_infeasible_is_said_with_its_place_and_can_be_taken_b
         visitor.button("undo")
     visitor.wait_for("exact")
     assert visitor.text == before
+
+
+def test_what_is_typed_counts_when_it_is_complete_and_what_is_refused_goes_back(visitor):
+    tab, page = visitor.tab_behind, visitor.page
+    alert = page.locator("[role=status] [role=alert]")
+
+    def typed(name, text, key="Enter"):
+        box = page.get_by_label(name, exact=True)
+        box.press("Control+a")
+        page.keyboard.type(text, delay=30)
+        page.keyboard.press(key)
+        return box
+
+    def stands(box, text):
+        until(lambda: box.input_value() == text)
+
+    box = typed(f"{THETA}, as a number", "95")
+    visitor.wait_for("“inclination θ” is 95")
+    stands(box, "40")
+    assert tab.desk.recipe.pattern.theta == 40
+    typed(f"{THETA}, as a number", "33.25", "Tab")
+    until(lambda: tab.desk.recipe.pattern.theta == 33.25)
+    until(lambda: alert.count() == 0)
+    stands(typed(f"{THETA}, as a number", "abc", "Tab"), "33.25")
+    stands(typed(f"{THETA}, as a number", "12", "Escape"), "33.25")
+    typed(f"{THETA}, as a number", "3", "4")  # and then nothing for a while
+    until(lambda: tab.desk.recipe.pattern.theta == 34)
+    typed("width (mm), as a number", "25,5", "Tab")  # beyond the slider, and as many people write it
+    until(lambda: tab.desk.recipe.pattern.width == 25.5)
+    visitor.button("undo")
+    until(lambda: tab.desk.recipe.pattern.width == 5)
+    visitor.fold_out("Width of single strips")
+    visitor.choose("width is", "one by one")
+    box = typed("all strips", "[5, 6")
+    visitor.wait_for("is neither a number nor a list")
+    stands(box, "[5, 5, 5, 5, 5, 5]")
+    typed("all strips", "[5, 6, 5, 6, 5, 6]")
+    until(lambda: tab.desk.recipe.pattern.width == [5, 6, 5, 6, 5, 6])
+    until(lambda: alert.count() == 0)
+
+
+def test_undo_and_redo_are_grey_where_they_do_nothing(visitor):
+    page = visitor.page
+    undo, redo = (page.get_by_role("button", name=name, exact=True) for name in ("undo", "redo"))
+    assert undo.is_disabled()
+    assert redo.is_disabled()
+    visitor.slide("creases", "ArrowRight")
+    until(undo.is_enabled)
+    undo.click()
+    until(redo.is_enabled)
+    until(undo.is_disabled)
+
+
+def test_what_is_for_those_who_program_with_viser_is_hidden(visitor):
+    visitor.wait_for("plisse studio")
+    for icon in ("adjustments", "list-search"):
+        button = visitor.page.locator(f"button:has(.tabler-icon-{icon})")
+        assert button.count() == 1
+        assert not button.is_visible()

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from visitor import until
 
+from plisse.studio.framing import Window
+
 pytestmark = pytest.mark.browser
 
 
@@ -29,7 +31,7 @@ def test_plates_offsets_colours_and_lines_are_switches_that_can_be_taken_back(vi
     sheet = len(tab.scene.points)
     visitor.tab("Look")
     visitor.choose("as", "plates")
-    until(lambda: len(tab.scene.points) > 8 * len(tab.found.report.design["pattern"]) and len(tab.scene.points) != sheet)
+    until(lambda: len(tab.scene.points) > 2 * sheet)
     plates = len(tab.scene.points)
     visitor.write("thickness or distance", "1000")
     visitor.wait_for("not done")
@@ -66,6 +68,59 @@ def test_the_camera_turns_is_kept_and_comes_back(visitor):
     until(lambda: np.linalg.norm(camera.position - begun) < 1e-3 * away)
     visitor.button("Best view")
     visitor.rest()
+
+
+def test_the_camera_follows_what_leaves_the_window_and_nothing_else(visitor):
+    tab, camera = visitor.tab_behind, visitor.tab_behind.client.camera
+
+    def widen(width):
+        tab._loop.call_soon_threadsafe(tab.change, {"pattern.width": width})
+        until(lambda: tab.found.report.design["pattern"]["width"] == width and not tab.found.drafted)
+        visitor.rest()
+
+    def direction():
+        return (camera.position - camera.look_at) / np.linalg.norm(camera.position - camera.look_at)
+
+    def reach():
+        return Window.of(camera).reach(tab.scene.points, camera)
+
+    visitor.rest()
+    place, towards = camera.position.copy(), direction()
+    assert 0.5 < reach() < 0.95
+    widen(5.2)
+    assert camera.position == pytest.approx(place)
+    widen(20.0)
+    assert np.linalg.norm(camera.position - place) > 0.1 * np.linalg.norm(place - camera.look_at)
+    assert direction() == pytest.approx(towards, abs=1e-3)
+    assert reach() < 0.95
+    visitor.page.mouse.move(400, 400)
+    for _ in range(8):
+        visitor.page.mouse.wheel(0, -400)
+    until(lambda: reach() > 1.2)
+    visitor.rest()
+    place = camera.position.copy()
+    widen(19.0)
+    assert camera.position == pytest.approx(place)
+
+
+def test_grooves_are_shaded_when_nothing_moves_and_the_paper_moves_without(visitor):
+    tab = visitor.tab_behind
+    until(lambda: visitor.node("/grooves") is not None and not visitor.node("/folded/front").visible)
+    visitor.tab("Look")
+    visitor.slide("folded (%)", "ArrowLeft")
+    until(lambda: tab.percent < 100 and visitor.node("/folded/front").visible)
+    until(lambda: not visitor.node("/folded/front").visible)
+    visitor.choose("colours", "opening")
+    until(lambda: visitor.node("/colours") is not None and visitor.node("/grooves") is None)
+
+
+def test_the_picture_of_plates_shows_plates(visitor):
+    tab = visitor.tab_behind
+    paper = visitor.download("picture, PNG")[1]
+    visitor.tab("Look")
+    visitor.choose("as", "plates")
+    until(lambda: "plate" in tab.scene._view.lines)
+    assert visitor.download("picture, PNG")[1] != paper
 
 
 def test_every_control_has_a_name_and_is_reached_with_the_keyboard(visitor):

@@ -39,7 +39,7 @@ def test_layouts_are_searched_for_seen_and_chosen_and_a_click_sets_their_centre_
     visitor.button("Search for layouts")
     chosen = visitor.page.get_by_role("button", name="% covered").last
     chosen.click(timeout=60_000)
-    visitor.page.get_by_role("img", name="layouts, seen from above").wait_for()
+    visitor.page.get_by_role("img", name="layout 1, seen from above").wait_for()
     until(lambda: tab.desk.recipe.pattern.amplitude is not None)
     visitor.wait_for("exact")
     visitor.rest()
@@ -60,4 +60,25 @@ def test_layouts_are_searched_for_seen_and_chosen_and_a_click_sets_their_centre_
     until(lambda: tab.desk.recipe.surface.guide is not None and len(tab.desk.recipe.surface.guide) == 3)
     assert tab.desk.recipe.surface.centre is None
     until(lambda: tab.found is not None and tab.found.report.design["surface"].get("guide") == tab.desk.recipe.surface.guide)
+    visitor.leave()
+
+
+def test_what_is_sent_and_refused_is_not_called_a_success(visitor, tmp_path):
+    bad = tmp_path / "bad.obj"
+    bad.write_text("this is no mesh\n" * 50)
+    visitor.tab("Surface")
+    visitor.upload(bad)
+    visitor.wait_for("not done")
+    assert "successfully" not in visitor.page.evaluate("document.body.innerText")
+
+
+def test_no_more_layouts_are_shown_than_were_asked_for(browser, start):
+    visitor = Visitor(browser, start(SADDLE, "a saddle"))
+    visitor.tab("Surface")
+    visitor.slide("layouts at most", "Home", "ArrowRight")
+    visitor.button("Search for layouts")
+    found = visitor.page.get_by_role("button", name="% covered")
+    found.first.wait_for(timeout=60_000)
+    visitor.page.get_by_role("img", name=", seen from above").first.wait_for()
+    assert 1 <= found.count() <= 2
     visitor.leave()
