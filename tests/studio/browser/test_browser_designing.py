@@ -159,7 +159,7 @@ def test_what_is_refused_or_infeasible_is_said_with_its_place_and_can_be_taken_b
     visitor.wait_for("smallest sector")
     visitor.read(COIL)
     visitor.wait_for("the folded shape cuts through itself")
-    assert "infeasible" in visitor.status
+    until(lambda: "infeasible" in visitor.status)
     assert visitor.node("/trouble").position == pytest.approx(tab.found.trouble)
     visitor.read({**COIL, "pattern": {**COIL["pattern"], "theta": 0}})
     visitor.wait_for("run into their centre of curvature")
