@@ -13,6 +13,7 @@ pytest.importorskip("viser", reason="viser is not installed: pip install plisse[
 from plisse.studio.requests import Found, Solve
 from plisse.studio.tab import Tab
 from plisse.studio.view import folded_view
+from plisse.studio.waiting import Waiting
 
 RESULT = plisse.design({"closed_form": {"kind": "cones", "creases": 4, "samples": 11}})
 SOUND = Found(RESULT.report, False, folded=folded_view(RESULT.structure))
@@ -42,11 +43,11 @@ def tab():
     tab.errands = Recorder()
     tab.desk = SimpleNamespace(recipe=RESULT.design, solvable=RESULT.design, step=SimpleNamespace(title="cones"))
     tab.found, tab.free, tab.colour, tab.solid, tab.percent = SOUND, None, "", ("", 0.0), 100.0
-    tab.is_open, tab._framed, tab._is_refused, tab._is_late = True, True, False, False
-    tab._asked = tab._watch = tab._rest = None
+    tab.is_open, tab._framed, tab._is_refused, tab._rest = True, True, False, None
     tab._pace, tab.timers = Pace(), timers
     handle = SimpleNamespace(cancel=timers.clear)
     tab._loop = SimpleNamespace(call_later=lambda seconds, action: timers.append(action) or handle)
+    tab._waiting = Waiting(tab._loop, tab._say_late)
     return tab
 
 
@@ -70,4 +71,4 @@ def test_a_long_solve_is_said_to_be_under_way_even_after_a_fast_one(tab):
     assert len(tab.panels.said) == 2
     tab._receive(solve, Answer(1, SOUND, 0.6))
     assert "exact" in tab.panels.said[-1]
-    assert tab._watch is None
+    assert tab._waiting.is_over

@@ -22,6 +22,7 @@ from plisse.studio.requests import Colour, Found, Pose, Request, Solid, Solve
 from plisse.studio.scene import Scene
 from plisse.studio.status import broken, refused, remark, solved, working
 from plisse.studio.uploads import Uploads
+from plisse.studio.waiting import Waiting
 from plisse.studio.worker import Process, Worker
 from plisse.transform.collisions import DESIGNED, FreeRange
 
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Tab"]
 
-LATE = 0.4  # seconds after which a solve is said to be under way
 REST, LONGER = 0.08, 2.0  # seconds without a change before a full answer, and before what takes longer, is asked for
 
 
@@ -50,9 +50,7 @@ class Tab:
         self._refusal = ""
         self._rest: asyncio.TimerHandle | None = None
         self.free: FreeRange | None = None
-        self._asked: Solve | None = None
-        self._watch: asyncio.TimerHandle | None = None
-        self._is_late = False
+        self._waiting = Waiting(loop, self._say_late)
         self._hands = Worker(self.deliver, start)
         self._uploads = Uploads(client)
         self.errands = Errands(self)
@@ -138,10 +136,8 @@ class Tab:
     def close(self) -> None:
         """End the processes and remove the files."""
         self.is_open = False
-        for timer in (self._rest, self._watch):
-            if timer is not None:
-                self._loop.call_soon_threadsafe(timer.cancel)
-        self._loop.call_soon_threadsafe(self.scene.close)
+        for stop in (lambda: self._later(None), self._waiting.cancel, self.scene.close):
+            self._loop.call_soon_threadsafe(stop)
         self._hands.close()
         self.errands.close()
         self.desk.close()
@@ -161,29 +157,16 @@ class Tab:
 
     def _ask_solve(self, request: Solve) -> None:
         """Ask for a solve, and say so where nothing comes of it for a while."""
-        self._asked = request
-        if self._watch is None:
-            self._watch = self._loop.call_later(LATE, self._grow_late)
+        self._waiting.begin(request)
         self._hands.ask(request)
 
-    def _grow_late(self) -> None:
+    def _say_late(self) -> None:
         if self.is_open:
-            self._is_late = True
             self.panels.say(working("solving", 0.0, self.found))
-
-    def _solve_ended(self, request: Solve) -> None:
-        """Stop waiting for a solve, and go on waiting where a newer one was asked for."""
-        if self._watch is not None:
-            self._watch.cancel()
-        self._watch, self._is_late = None, False
-        if request is self._asked:
-            self._asked = None
-        else:
-            self._watch = self._loop.call_later(LATE, self._grow_late)
 
     def _say_pose(self) -> None:
         """Say again what is on screen, where nothing else is to be said."""
-        if self._asked is None and not self._is_refused:
+        if self._waiting.is_over and not self._is_refused:
             self.say_found()
 
     def _later(self, action: Callable | None, seconds: float = REST) -> None:
@@ -203,11 +186,11 @@ class Tab:
         if not isinstance(request, Solve | Pose | Solid | Colour):
             return self.errands.receive(request, message)
         if isinstance(message, Stage):
-            if isinstance(request, Solve) and (self._is_late or not self._pace.is_fast):
+            if isinstance(request, Solve) and (self._waiting.is_late or not self._pace.is_fast):
                 self.panels.say(working(message.name, message.fraction, self.found))
             return None
         if isinstance(request, Solve):
-            self._solve_ended(request)
+            self._waiting.end(request)
         return self._break(request, message.sentence) if isinstance(message, Failure) else self._take_in(request, message)
 
     def _take_in(self, request: Request, answer: Answer) -> None:

@@ -1,0 +1,51 @@
+"""What is waited for: the newest solve, and when it is late."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+
+from plisse.studio.requests import Solve
+
+__all__ = ["Waiting"]
+
+LATE = 0.4  # seconds after which a solve is said to be under way
+
+
+class Waiting:
+    """The solve that was asked for last; `say` is called in the event loop when nothing comes of it for a while."""
+
+    def __init__(self, loop: asyncio.AbstractEventLoop, say: Callable[[], None]):
+        self._loop, self._say = loop, say
+        self._asked: Solve | None = None
+        self._timer: asyncio.TimerHandle | None = None
+        self.is_late = False
+
+    @property
+    def is_over(self) -> bool:
+        """Whether nothing is waited for."""
+        return self._asked is None
+
+    def begin(self, request: Solve) -> None:
+        """Wait for a solve, instead of those before."""
+        self._asked = request
+        if self._timer is None:
+            self._timer = self._loop.call_later(LATE, self._grow_late)
+
+    def end(self, request: Solve) -> None:
+        """Stop waiting for a solve, and go on waiting where a newer one was asked for."""
+        self.cancel()
+        self._timer, self.is_late = None, False
+        if request is self._asked:
+            self._asked = None
+        else:
+            self._timer = self._loop.call_later(LATE, self._grow_late)
+
+    def cancel(self) -> None:
+        """Say nothing any more."""
+        if self._timer is not None:
+            self._timer.cancel()
+
+    def _grow_late(self) -> None:
+        self.is_late = True
+        self._say()
