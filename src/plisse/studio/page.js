@@ -1,10 +1,10 @@
 (() => {
-  // without a graphics card smooth edges cost as much as everything else; the address ends with #smooth where one wants them
+  // without a graphics card smooth edges cost as much as everything else; pictures for the docs want them all the same
   const drawn = document.createElement("canvas").getContext("webgl2");
   const kind = drawn?.getExtension("WEBGL_debug_renderer_info");
   const card = kind ? drawn.getParameter(kind.UNMASKED_RENDERER_WEBGL) : "";
   drawn?.getExtension("WEBGL_lose_context")?.loseContext();
-  if (/swiftshader|llvmpipe|softpipe|basic render/i.test(card) && location.hash !== "#smooth") {
+  if (/swiftshader|llvmpipe|softpipe|basic render/i.test(card) && !window.plisseSmooth) {
     const open = HTMLCanvasElement.prototype.getContext;
     HTMLCanvasElement.prototype.getContext = function (name, wishes) {
       return open.call(this, name, name.startsWith("webgl") ? { ...wishes, antialias: false } : wishes);

@@ -25,7 +25,8 @@ class Visitor:
         self.page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.on("request", lambda request: self._note(request.url, studio.port))
-        self.page.goto(f"http://localhost:{studio.port}/{'#smooth' if PICTURES else ''}")
+        self.page.add_init_script(f"window.plisseSmooth = {'true' if PICTURES else 'false'}")
+        self.page.goto(f"http://localhost:{studio.port}/")
         self.wait_for("exact")
         self.tab_behind = next(studio.tabs[number] for number in studio.tabs if number not in known)
 
