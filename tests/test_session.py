@@ -62,7 +62,9 @@ def test_patterns_are_made_once_for_one_size():
 
 
 @pytest.mark.parametrize("changes", [{"units.x": 1}, {3: 4}, {None: 1}, [1], "theta", {"pattern.thta": None},
-                                     {"pattern.theta.x": None}, {"solve.nosuch": 3}, {"curve.nosuch": 1}])
+                                     {"pattern.theta.x": None}, {"solve.nosuch": 3}, {"curve.nosuch": 1},
+                                     {"curve": 5, "curve.radius": 3}, {"curve": [1], "curve.radius": None},
+                                     {"theta": 30, "pattern.theta": 40}, {"strips": 3}])
 def test_changes_that_mean_nothing_are_refused_and_leave_the_session_as_it_was(changes):
     session = plisse.Session({"curve": {"kind": "arc", "radius": 100, "angle": 60},
                               "pattern": {"creases": 3, "samples": 12, "width": 8, "amplitude": 4}})

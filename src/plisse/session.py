@@ -13,7 +13,6 @@ from plisse.solve.workspace import Workspace
 __all__ = ["Session", "changed"]
 
 Progress = Callable[[str, float], None]
-SECTIONS = ("pattern", "curve", "surface", "closed_form", "march", "solve")
 
 
 class Session:
@@ -46,13 +45,20 @@ def changed(recipe: Recipe, changes: dict, /, **values) -> Recipe:
     """The checked recipe after changes, named as in `Session.update`; raises InvalidDesign where there is none."""
     if not isinstance(changes, dict):
         raise InvalidDesign(f'changes are {changes!r}; give a dictionary as in {{"pattern.theta": 30}}, or theta=30')
-    data = recipe.to_dict()
-    for name, value in {**changes, **values}.items():
+    data, seen = recipe.to_dict(), set()
+    for name, value in [*changes.items(), *values.items()]:
         section, key = _place(recipe, name)
+        if (section, key) in seen:
+            raise InvalidDesign(f"{key} is changed twice; give it once")
+        seen.add((section, key))
+        place = data if section is None else data.get(section, {})
+        if not isinstance(place, dict):
+            raise InvalidDesign(f"{section} is {place!r}, which has no key {key}; give a table of keys and values")
         if value is None:
-            (data if section is None else data.get(section, {})).pop(key, None)
+            place.pop(key, None)
         else:
-            (data if section is None else data.setdefault(section, {}))[key] = value
+            place[key] = value
+            data.update({} if section is None else {section: place})
     return design_from_dict(data)
 
 
@@ -61,23 +67,23 @@ def _place(recipe: Recipe, name: str) -> tuple[str | None, str]:
     if not isinstance(name, str):
         raise InvalidDesign(f"a change is named {name!r}; names are words as in pattern.theta or theta")
     section, dot, key = name.partition(".")
+    sections = [field for field in type(recipe).__struct_fields__ if field != "units"]
     if dot:
-        if section not in type(recipe).__struct_fields__ or section == "units":
-            raise InvalidDesign(f"{name} names no section of a design of this kind; its sections are "
-                                f"{', '.join(field for field in type(recipe).__struct_fields__ if field != 'units')}")
+        if section not in sections:
+            raise InvalidDesign(f"{name} names no section of a design of this kind; its sections are {', '.join(sections)}")
         present = getattr(recipe, section)
         if present is not None and key not in _keys(present):
             raise InvalidDesign(f"{section} has no key {key}; its keys are {', '.join(sorted(_keys(present)))}")
         return section, key
-    if name in (*SECTIONS, "units"):
+    if name in (*sections, "units"):
         return None, name
-    fitting = [section for section in SECTIONS if name in _keys(getattr(recipe, section, None))]
+    fitting = [section for section in sections if name in _keys(getattr(recipe, section, None))]
     if len(fitting) == 1:
         return fitting[0], name
     if fitting:
         raise InvalidDesign(f"{name} stands in the sections {' and '.join(fitting)}; say which, as in "
                             f"update({{\"{fitting[0]}.{name}\": …}})")
-    known = sorted({key for section in SECTIONS for key in _keys(getattr(recipe, section, None))})
+    known = sorted({key for section in sections for key in _keys(getattr(recipe, section, None))})
     raise InvalidDesign(f"a design of this kind has no key {name}; its keys are {', '.join(known)}")
 
 

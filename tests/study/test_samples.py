@@ -85,6 +85,21 @@ def test_quoted_and_bare_dotted_keys_are_the_same():
     assert assignments(quoted) == assignments(bare) == [{"pattern.theta": 1}, {"pattern.theta": 2}]
 
 
+def test_tables_that_vary_stay_as_they_were_given(study):
+    tables = [{**study["base"]["closed_form"], "width": width} for width in (4, 6)]
+    given = [dict(table) for table in tables]
+    study["vary"] = {"closed_form": tables, "closed_form.slope": [0.5, 1.0]}
+    found = samples(read_plan(study))
+    assert tables == given
+    assert [sample.parameters["closed_form"] for sample in found] == [given[0], given[0], given[1], given[1]]
+    assert [sample.recipe["closed_form"]["slope"] for sample in found] == [0.5, 1.0, 0.5, 1.0]
+
+
+def test_a_study_is_a_table_or_a_file():
+    with pytest.raises(InvalidDesign, match="a study is 7"):
+        read_plan(7)
+
+
 def test_one_impossible_value_is_marked_and_the_others_stay(study):
     study["vary"] = {"closed_form.slope": [0.5, -1.0]}
     good, bad = samples(read_plan(study))

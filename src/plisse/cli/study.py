@@ -130,8 +130,10 @@ def _summarise(found: Study) -> None:
     outcomes = [Text(f"{count} {status}", STYLES.get(status, "bold")) for status, count in found.counts.items()]
     console.print(Text(f"{len(found.rows)} designs: ", "bold") + Text(", ").join(outcomes))
     alike = Counter((row.status, _kind(row.reasons[0])) for row in found.rows if row.reasons)
+    example = {(row.status, _kind(row.reasons[0])): row.reasons[0] for row in found.rows[::-1] if row.reasons}
     for (status, kind), count in alike.most_common(5):
-        console.print(Text(f"· {count} {status}: {kind}"))
+        of_what = f"{count} {status}" if count == 1 else f"{count} {status}, for example"
+        console.print(Text(f"· {of_what}: {example[status, kind]}"))
     if found.others:
         console.print(Text(f"· {found.others} designs of earlier studies are kept in the store, they are not counted"))
     for file in sorted(file for file in found.directory.iterdir() if file.is_file() and not file.name.startswith(".")):

@@ -7,6 +7,7 @@ import numpy as np
 
 from plisse.measure.folds import assignments
 from plisse.structure.chains import boundary_loops
+from plisse.structure.incidence import edge_lookup
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Polyline
 
@@ -27,32 +28,18 @@ def lettered_runs(structure: PleatedStructure) -> list[Run]:
     edges = topology.edges
     letters = assignments(topology, structure.vertices)
     letters = np.where(edges.is_crease | edges.is_boundary, letters, "R")
-    known = _Letters(edges.vertices, letters, topology.vertex_count)
+    lookup = edge_lookup(topology)
     runs = [Run("B", loop, True) for loop in boundary_loops(topology)]
     for chain in (*topology.creases, *topology.rulings):
-        runs += [run for run in _split(chain, known) if run.letter != "B"]
+        names = letters[lookup(chain.path[:-1], chain.path[1:])]
+        runs += [run for run in _split(chain, names) if run.letter != "B"]
     return runs
 
 
-class _Letters:
-    """Letters of edges, looked up along paths of vertices."""
-
-    def __init__(self, ends: np.ndarray, letters: np.ndarray, vertex_count: int):
-        key = ends.min(axis=1) * vertex_count + ends.max(axis=1)
-        order = np.argsort(key)
-        self._key, self._letters, self._count = key[order], letters[order], vertex_count
-
-    def along(self, path: np.ndarray) -> np.ndarray:
-        """One letter per edge of a path (N,): (N−1,)."""
-        a, b = path[:-1], path[1:]
-        return self._letters[np.searchsorted(self._key, np.minimum(a, b) * self._count + np.maximum(a, b))]
-
-
-def _split(chain: Polyline, letters: _Letters) -> list[Run]:
-    path = np.append(chain.vertices, chain.vertices[0]) if chain.closed else chain.vertices
-    names = letters.along(path)
+def _split(chain: Polyline, names: np.ndarray) -> list[Run]:
+    """Runs of a chain with a letter for every edge of its path."""
     changes = np.flatnonzero(names[1:] != names[:-1]) + 1
     if chain.closed and len(changes) == 0:
         return [Run(str(names[0]), chain.vertices, True)]
     cuts = [0, *changes.tolist(), len(names)]
-    return [Run(str(names[a]), path[a:b + 1], False) for a, b in pairwise(cuts)]
+    return [Run(str(names[a]), chain.path[a:b + 1], False) for a, b in pairwise(cuts)]

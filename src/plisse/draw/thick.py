@@ -6,6 +6,7 @@ import numpy as np
 
 from plisse.draw.runs import Run, lettered_runs
 from plisse.geometry.vectors import dot, unit
+from plisse.structure.incidence import corner_means
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Topology
 from plisse.transform.plates import Plates
@@ -51,7 +52,7 @@ def thick_sheet(plates: Plates) -> ThickSheet:
     base = plates.structure
     topology, count = base.topology, base.topology.vertex_count
     rim = topology.edges.vertices[topology.edges.is_boundary]
-    upper, lower = (_mean(topology, outline) for outline in (plates.upper, plates.lower))
+    upper, lower = (corner_means(topology, outline) for outline in (plates.upper, plates.lower))
     walls = np.stack([lower[rim[:, 0]], lower[rim[:, 1]], upper[rim[:, 1]], upper[rim[:, 0]]], axis=1)
     vertices = np.concatenate([upper, lower, walls.reshape(-1, 3)])
     quads = np.concatenate([topology.quads, count + topology.quads[:, [1, 0, 3, 2]],
@@ -60,13 +61,6 @@ def thick_sheet(plates: Plates) -> ThickSheet:
     sides = np.arange(2 * count).reshape(2, count)
     return ThickSheet(PleatedStructure(Topology(len(vertices), quads, hubs), vertices), sides,
                       sides[:, _corners(rim, upper)].T, base)
-
-
-def _mean(topology: Topology, outline: np.ndarray) -> np.ndarray:
-    """Points (V, 3) of an outline (C, 3), the mean where corners of one vertex differ."""
-    vertex, count = topology.corners.vertex, topology.vertex_count
-    total = np.stack([np.bincount(vertex, column, count) for column in outline.T], axis=1)
-    return total / np.maximum(np.bincount(vertex, minlength=count), 1)[:, None]
 
 
 def _corners(rim: np.ndarray, points: np.ndarray) -> np.ndarray:

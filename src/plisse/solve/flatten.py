@@ -18,6 +18,7 @@ from plisse.solve.energies import given_length
 from plisse.solve.workspace import Workspace
 from plisse.structure.cut import Cut
 from plisse.structure.face_tree import face_tree
+from plisse.structure.incidence import corner_means
 from plisse.structure.parts import parts
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Topology
@@ -57,9 +58,7 @@ def unfold(topology: Topology, vertices: np.ndarray, workspace: Workspace | None
     translation = tree.summed(spin[parent] * local[at_parent] - spin[child] * local[following[at_child]])
     corners = topology.corners
     placed = translation[corners.face] + spin[corners.face] * local
-    count = np.bincount(corners.vertex, minlength=topology.vertex_count).clip(1)
-    return np.stack([np.bincount(corners.vertex, part, topology.vertex_count) / count
-                     for part in (placed.real, placed.imag)], axis=1)
+    return corner_means(topology, np.stack([placed.real, placed.imag], axis=1))
 
 
 def refine_isometry(topology: Topology, vertices: np.ndarray, flat: np.ndarray, steps: int = 4,

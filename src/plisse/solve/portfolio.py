@@ -17,7 +17,7 @@ __all__ = ["CONSTRUCTED_ONLY", "GENERAL", "GUIDED", "GUIDED_PRINCIPAL", "PRINCIP
 
 Way = Callable[[Start], Attempt]
 
-FEW = 20  # columns with which nearer structures are sought: relaxation on fewer columns stays nearer to the guides
+FEW = 20  # columns (60 of closed creases) on which nearer structures are sought: fewer of them stay nearer to the guides
 
 SMOOTH = {"along": 1.0, "same_side": 0.09, "across": 0.03}
 

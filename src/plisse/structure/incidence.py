@@ -8,7 +8,7 @@ from scipy.sparse.csgraph import breadth_first_order
 
 from plisse.structure.topology import Topology
 
-__all__ = ["edge_lookup", "edges_of_corners", "loop_edges", "tree_edges"]
+__all__ = ["corner_means", "edge_lookup", "edges_of_corners", "loop_edges", "tree_edges"]
 
 
 def edge_lookup(topology: Topology) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
@@ -21,6 +21,13 @@ def edge_lookup(topology: Topology) -> Callable[[np.ndarray, np.ndarray], np.nda
         return order[np.searchsorted(key[order], np.minimum(a, b) * count + np.maximum(a, b))]
 
     return edge
+
+
+def corner_means(topology: Topology, values: np.ndarray) -> np.ndarray:
+    """Means (V, k) over the corners of every vertex for values (C, k); 0 at vertices without faces."""
+    vertex, count = topology.corners.vertex, topology.vertex_count
+    total = np.stack([np.bincount(vertex, column, count) for column in values.T], axis=1)
+    return total / np.maximum(np.bincount(vertex, minlength=count), 1)[:, None]
 
 
 def edges_of_corners(topology: Topology) -> tuple[np.ndarray, np.ndarray]:

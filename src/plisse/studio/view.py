@@ -14,6 +14,7 @@ from plisse.geometry.vectors import norm
 from plisse.measure.folds import assignments
 from plisse.measure.planarity import face_normals
 from plisse.structure.front import front_up
+from plisse.structure.incidence import corner_means
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Topology
 from plisse.transform.flex import Motion
@@ -138,7 +139,4 @@ def _strip_width(topology: Topology, points: np.ndarray) -> float:
 
 def _mean_normals(topology: Topology, points: np.ndarray) -> np.ndarray:
     """Mean normals (V, 3) of the faces around vertices: short where the fold is sharp, so that lines stay in its groove."""
-    corners = topology.corners
-    normals = face_normals(topology, points)[corners.face]
-    total = np.stack([np.bincount(corners.vertex, column, topology.vertex_count) for column in normals.T], axis=1)
-    return total / np.maximum(np.bincount(corners.vertex, minlength=topology.vertex_count), 1)[:, None]
+    return corner_means(topology, face_normals(topology, points)[topology.corners.face])

@@ -64,6 +64,8 @@ def read_plan(source: str | Path | dict) -> Plan:
 
     Raises InvalidDesign with the key, what was found and what to do.
     """
+    if not isinstance(source, dict | str | Path):
+        raise InvalidDesign(f"a study is {source!r}; give a dictionary or the path of a TOML file")
     folder = Path(source).parent.absolute() if not isinstance(source, dict) else Path.cwd()
     data = source if isinstance(source, dict) else _toml(Path(source), "a study file")
     refuse_non_finite(data)

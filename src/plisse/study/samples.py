@@ -59,7 +59,7 @@ def _sample(plan: Plan, parameters: dict) -> Sample:
     assert isinstance(plan.base, dict)  # a plan that was read has its base design
     data = copy.deepcopy(plan.base)
     for key, value in parameters.items():
-        _assign(data, key, value)
+        _assign(data, key, copy.deepcopy(value))  # tables that vary are filled in further
     try:
         recipe = design_from_dict(data, base=plan.folder).to_dict()
     except PlisseError as error:
