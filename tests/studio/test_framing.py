@@ -1,12 +1,20 @@
 """What is shown fills the window, and the sheet lies beside the structure."""
 
+from contextlib import nullcontext
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from plisse.draw.camera import Camera
+import plisse
+from plisse.draw.camera import Camera, best_view
+from plisse.io.designs import read_design
+from plisse.shipped import shipped_design
 from plisse.studio.framing import BAR, FIELD_OF_VIEW, FILLED, Manner, Window, beside
+from plisse.studio.requests import Found
+from plisse.studio.scene import Scene
+from plisse.studio.view import flat_view, folded_view, posed_view
 
 RANDOM = np.random.default_rng(3)
 CLOUD = RANDOM.normal(size=(300, 3)) * [60, 20, 8] + [5, -70, 30]
@@ -53,6 +61,69 @@ def test_reach_is_how_far_points_are_from_the_middle_of_the_window():
     camera = camera_at(stand, VIEW, window)
     assert window.reach(CLOUD, camera) == pytest.approx(np.abs(projected(window, stand, CLOUD, VIEW.axes)).max())
     assert window.reach(2 * stand.position[None] - stand.middle, camera) == np.inf
+
+
+def test_the_share_is_the_larger_extent_in_the_window_wherever_it_is():
+    window = Window(1.3)
+    camera = camera_at(window.stand(CLOUD, VIEW.axes), VIEW, window)
+    assert window.share(CLOUD, camera) == pytest.approx(FILLED)
+    small = 0.1 * CLOUD + 0.3 * np.ptp(CLOUD, axis=0).max() * VIEW.axes[0]
+    assert window.share(small, camera) < 0.15
+    assert window.reach(small, camera) > 0.3
+
+
+class Cards:
+    """Stands for a scene of viser, whose nodes keep what is set, and for its client."""
+
+    def __init__(self, aspect=1.5):
+        self.camera = SimpleNamespace(position=np.array([0.0, -500, 300]), look_at=np.zeros(3), aspect=aspect,
+                                      up_direction=np.array([0.0, 0, 1]), image_width=1200, image_height=800,
+                                      on_update=lambda _: None)
+        self.scene, self.atomic = self, nullcontext
+
+    def add_mesh_simple(self, _name, points, triangles, **_):
+        return SimpleNamespace(vertices=points, faces=triangles)
+
+    def __getattr__(self, _name):
+        return lambda *_, **__: SimpleNamespace(visible=True)
+
+
+@pytest.fixture(scope="module")
+def found():
+    result = plisse.design(read_design(shipped_design("fig01d")))
+    structure = result.structure
+    folded = replace(folded_view(structure), sky=None)
+    return structure, Found(result.report, False, folded=folded, sheet=flat_view(structure), camera=best_view(structure))
+
+
+def test_the_best_view_of_nothing_is_where_one_is():
+    cards = Cards()
+    scene, place = Scene(cards), cards.camera.position
+    scene.frame()
+    scene.pale()
+    assert cards.camera.position is place
+    assert len(scene.points) == scene.height_of_paper == 0
+    assert not scene.is_pale
+
+
+def test_a_structure_that_folds_up_is_seen_again_from_near_although_its_sheet_was_always_large(found):
+    structure, found = found
+    cards = Cards()
+    scene, motion = Scene(cards), structure.flex(100)
+    scene.show(found)
+    scene.frame()
+
+    def share():
+        return Window.of(cards.camera).share(scene.points, cards.camera)
+
+    best = share()
+    for percent, least in ((0, 0.8), (150, 0.5 * best), (0, 0.8), (100, 0.95 * best)):
+        scene.pose(replace(posed_view(motion, percent), sky=None))
+        assert share() > least
+    cards.camera.position = 4 * cards.camera.position - 3 * cards.camera.look_at
+    far = share()
+    scene.follow()
+    assert share() == far
 
 
 @pytest.mark.parametrize("below", [False, True])

@@ -1,19 +1,22 @@
 """What a tab shows and says while it waits, and after a design broke down."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import msgspec
 import pytest
 
 import plisse
-from plisse.studio.child import Answer, Stage
+from plisse.studio.child import Answer, Failure, Stage
 
 pytest.importorskip("viser", reason="viser is not installed: pip install plisse[studio]")
 
+from plisse.studio.model import Desk
+from plisse.studio.pace import Pace
 from plisse.studio.requests import Found, Solve
-from plisse.studio.tab import Tab
+from plisse.studio.tab import LONGER, REST, Tab
 from plisse.studio.view import folded_view
-from plisse.studio.waiting import Waiting
+from plisse.studio.waiting import LATE, Later, Waiting
 
 RESULT = plisse.design({"closed_form": {"kind": "cones", "creases": 4, "samples": 11}})
 SOUND = Found(RESULT.report, False, folded=folded_view(RESULT.structure))
@@ -25,30 +28,54 @@ class Recorder:
 
     def __init__(self):
         self.called, self.said, self.is_pale, self.extent = [], [], False, (None, 1.0)
-        self.handles_wanted = False
+        self.handles_wanted = self.is_pulled = False
+        self.asked = []
 
     def say(self, status):
         self.said.append(status.brief)
+
+    def ask(self, request):
+        self.asked.append(request)
 
     def __getattr__(self, name):
         return lambda *_: self.called.append(name)
 
 
+class Clock:
+    """Stands for the event loop: what is to come later comes when a test says so."""
+
+    def __init__(self):
+        self.waiting = []
+
+    def call_later(self, seconds, action):
+        timer = SimpleNamespace(seconds=seconds, action=action)
+        timer.cancel = lambda: timer in self.waiting and self.waiting.remove(timer)
+        self.waiting.append(timer)
+        return timer
+
+    def pass_by(self, seconds):
+        due = [timer for timer in self.waiting if timer.seconds <= seconds]
+        self.waiting = [timer for timer in self.waiting if timer not in due]
+        for timer in due:
+            timer.action()
+
+
 @pytest.fixture
 def tab():
-    from plisse.studio.pace import Pace
-
-    tab, timers = Tab.__new__(Tab), []
-    tab.panels, tab.scene, tab.handles, tab._hands = (Recorder() for _ in range(4))
-    tab.errands = Recorder()
-    tab.desk = SimpleNamespace(recipe=RESULT.design, solvable=RESULT.design, step=SimpleNamespace(title="cones"))
+    tab, clock = Tab.__new__(Tab), Clock()
+    tab.panels, tab.scene, tab.handles, tab._hands, tab.errands = (Recorder() for _ in range(5))
+    tab.desk, tab._pace, tab.clock = Desk(RESULT.design, "cones"), Pace(), clock
     tab.found, tab.free, tab.colour, tab.solid, tab.percent = SOUND, None, "", ("", 0.0), 100.0
-    tab.is_open, tab._framed, tab._is_refused, tab._rest = True, True, False, None
-    tab._pace, tab.timers = Pace(), timers
-    handle = SimpleNamespace(cancel=timers.clear)
-    tab._loop = SimpleNamespace(call_later=lambda seconds, action: timers.append(action) or handle)
-    tab._waiting = Waiting(tab._loop, tab._say_late)
-    return tab
+    tab._asked, tab._held = None, (tab.percent, tab.solid)
+    tab.is_open, tab._framed, tab._refusal = True, True, ""
+    tab._rest, tab._longer, tab._waiting = Later(clock, REST), Later(clock, LONGER), Waiting(clock, tab._say_late)
+    yield tab
+    tab.desk.close()
+
+
+def found_of(recipe, *, principal=False):
+    """What a solve of a recipe brings, without solving it."""
+    return replace(SOUND, report=msgspec.structs.replace(SOUND.report, principal=principal, design=recipe))
 
 
 def test_what_was_there_before_a_breakdown_stays_pale(tab):
@@ -65,10 +92,85 @@ def test_a_long_solve_is_said_to_be_under_way_even_after_a_fast_one(tab):
     tab._ask_solve(solve)
     tab._receive(solve, Stage(1, "solve", 0.2))
     assert tab.panels.said == []
-    tab.timers[0]()
+    tab.clock.pass_by(LATE)
     tab._receive(solve, Stage(1, "solve", 0.4))
     assert all("working" in said for said in tab.panels.said)
     assert len(tab.panels.said) == 2
     tab._receive(solve, Answer(1, SOUND, 0.6))
     assert "exact" in tab.panels.said[-1]
     assert tab._waiting.is_over
+
+
+def test_a_change_that_waits_for_rest_is_solved_although_an_older_answer_comes_between(tab):
+    tab._pace.waits = lambda _recipe: True
+    before = tab.desk.recipe
+    tab.change({"closed_form.creases": 6})
+    assert tab._hands.asked == []
+    tab._receive(Solve(before), Answer(1, found_of(before, principal=True), 0.01))
+    tab.clock.pass_by(REST)
+    assert tab._hands.asked[-1].recipe.closed_form.creases == 6
+    assert tab.panels.said == []
+    assert "show" not in tab.scene.called
+
+
+def test_what_takes_longer_waits_beside_the_full_answer_and_both_end_with_a_newer_solve(tab):
+    tab._pace.waits = lambda _recipe: True
+    tab._receive(Solve(tab.desk.recipe), Answer(1, found_of(tab.desk.recipe, principal=True), 0.01))
+    assert [timer.seconds for timer in tab.clock.waiting] == [LONGER]
+    for creases in (6, 8):
+        tab.change({"closed_form.creases": creases})
+        assert [timer.seconds for timer in tab.clock.waiting] == [REST]
+
+
+def test_an_answer_that_was_overtaken_is_shown_as_a_draft_while_a_design_is_pulled(tab):
+    before = tab.desk.recipe
+    tab.change({"closed_form.creases": 6})
+    tab._receive(Solve(before, quick=True), Answer(1, found_of(before), 0.01))
+    assert "show" in tab.scene.called
+    assert tab.found.drafted
+    assert "draft" in tab.panels.said[-1]
+    tab._receive(Solve(before), Failure(2, "no longer of interest"))
+    assert "pale" not in tab.scene.called
+
+
+@pytest.mark.parametrize("held", [100.0, 60.0])
+def test_a_pose_that_is_refused_goes_back_to_that_on_screen(tab, held):
+    tab.pose(held)
+    if tab._hands.asked:
+        tab._receive(tab._hands.asked[-1], Answer(1, SOUND.folded, 0.01))
+    tab.pose(201.0)
+    tab.panels.called.clear()
+    tab._receive(tab._hands.asked[-1], Failure(2, "there is no such state"))
+    assert tab.percent == held
+    assert "not done" in tab.panels.said[-1]
+    assert "refresh" in tab.panels.called
+
+
+def test_a_thickness_that_is_refused_is_not_asked_for_again(tab):
+    tab.solidify("plates", 1.0)
+    tab._receive(tab._hands.asked[-1], Answer(1, SOUND.folded, 0.01))
+    tab.solidify("plates", 1000.0)
+    tab._receive(tab._hands.asked[-1], Failure(2, "plates this thick do not exist"))
+    assert tab.solid == ("plates", 1.0)
+    tab._receive(Solve(tab.desk.recipe), Answer(3, SOUND, 0.01))
+    assert tab._hands.asked[-1].length == 1.0
+    tab._receive(tab._hands.asked[-1], Failure(4, "plates this thick do not exist"))
+    assert tab.solid == ("", 0.0)
+
+
+def test_the_camera_stays_when_a_text_is_refused_and_moves_for_another_design(tab):
+    tab.read("this is no design")
+    assert tab._refusal
+    assert tab._framed
+    tab.read("[closed_form]\nkind = 'cones'\ncreases = 6\n")
+    assert not tab._framed
+    assert not tab._refusal
+
+
+def test_nothing_is_said_to_be_pale_where_nothing_was(tab):
+    tab.found = replace(SOUND, folded=None, reference=None)
+    said = []
+    tab.panels.say = lambda status: said.append(status.html)
+    tab._receive(Solve(tab.desk.recipe), Failure(1, "it breaks down"))
+    assert "it breaks down" in said[-1]
+    assert "Pale" not in said[-1]

@@ -1,10 +1,12 @@
 """Grooves are darker than ridges, once nothing moves."""
 
 import io
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from plisse.studio.paper import PALE, Paper, Shown
 from plisse.studio.shading import shaded
 from plisse.studio.view import flat_view, folded_view
 
@@ -38,3 +40,26 @@ def test_what_is_dark_on_one_side_is_light_on_the_other(structure):
 
 def test_a_flat_sheet_has_no_grooves(structure):
     assert flat_view(structure).sky is None
+
+
+def test_paper_that_a_model_took_the_place_of_is_seen_again_when_it_becomes_pale(structure):
+    def node(*_, **__):
+        made.append(SimpleNamespace(visible=True, opacity=None))
+        return made[-1]
+
+    made: list = []
+    paper = Paper(SimpleNamespace(add_frame=node, add_mesh_simple=lambda *_, **__: node_of_mesh(node()),
+                                  add_line_segments=node), "/folded")
+    paper.show(folded_view(structure), Shown())
+    sides = [part for part in made if hasattr(part, "faces")]
+    paper.hide_paper()
+    assert not any(side.visible for side in sides)
+    paper.pale()
+    assert len(sides) == 2
+    assert all(side.visible and side.opacity == PALE for side in sides)
+
+
+def node_of_mesh(node):
+    """A node that has triangles."""
+    node.faces = np.empty((0, 3))
+    return node

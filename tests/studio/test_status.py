@@ -3,14 +3,15 @@
 import re
 
 import msgspec
+import numpy as np
 
 import plisse
 from plisse.io.designs import design_from_dict
-from plisse.studio.look_panel import legend_html
+from plisse.studio.look_panel import legend_html, scale_html
 from plisse.studio.motion_panel import marks_of, why_fixed
 from plisse.studio.requests import Found
 from plisse.studio.status import broken, refused, remark, size_text, solved, working
-from plisse.studio.view import folded_view
+from plisse.studio.view import Tint, folded_view
 from plisse.studio.words import spoken
 from plisse.transform.collisions import FreeRange
 
@@ -95,3 +96,10 @@ def test_the_legend_names_both_folds_and_the_scale_of_the_sheet():
     assert "mountain" in legend_html(0.0)
     assert "valley" in legend_html(0.0)
     assert "1 : 2" in legend_html(0.5)
+
+
+def test_ticks_of_the_colour_bar_do_not_wrap_and_stay_within_its_ends():
+    tint = Tint(np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros(0), "planarity",
+                [(0.0, "0"), (0.5, "1e-12"), (1.0, "1e-9")], np.zeros((2, 3), int))
+    styles = re.findall(r"nowrap;transform:translateX\(-(\d+)%\);left:([\d.]+)%", scale_html(tint))
+    assert styles == [("0", "0.0"), ("50", "50.0"), ("100", "100.0")]

@@ -49,6 +49,15 @@ class Sleepy(InTheWay):
 
 
 @dataclass(frozen=True)
+class Sketchy(Sleepy):
+    """As a draft is: let finish, and newer than every whole before it."""
+
+    lane = "Draft"
+    outdates = ("Draft", "Solve")
+    is_brief = True
+
+
+@dataclass(frozen=True)
 class Murdered(InTheWay):
     def run(self, bench, progress):
         os.kill(os.getpid(), signal.SIGKILL)
@@ -128,6 +137,25 @@ def test_sixty_changes_in_a_second_leave_the_last_one(client):
         seen += 1
     assert seen <= 60
     assert client.answers.empty()
+
+
+def test_a_draft_that_was_begun_is_finished_and_only_the_newest_waits(client):
+    client.worker.ask(Sketchy(0.5))
+    while not client.stages or not isinstance(client.stages[-1][0], Sketchy):
+        time.sleep(0.01)
+    for seconds in (0.3, 0.2, 0.1):
+        client.worker.ask(Sketchy(seconds))
+    assert [client.answer()[0] for _ in range(2)] == [Sketchy(0.5), Sketchy(0.1)]
+    assert client.answers.empty()
+
+
+def test_a_draft_drops_the_whole_and_waits_beside_it(client):
+    client.worker.ask(Sleepy(50))
+    while not client.stages or client.stages[-1][0] != Sleepy(50):
+        time.sleep(0.01)
+    client.worker.ask(Sketchy(0.1))
+    client.worker.ask(Sleepy(0.1))
+    assert [client.answer()[0] for _ in range(2)] == [Sketchy(0.1), Sleepy(0.1)]
 
 
 def test_a_stale_request_that_listens_is_dropped_and_its_process_kept(client):

@@ -22,7 +22,7 @@ class Pattern(Strict, kw_only=True, frozen=True):
                      Meta(description="degrees from 0 up to, not including, 90: one number or one per crease")] = 0.0
     creases: Annotated[int, Meta(ge=3, le=1000, description="a whole number from 3 to 1000")]
     width: Annotated[Length | list[Length | list[float]],
-                     Meta(description="one length, one per strip, or a table [[position, width], …]")]
+                     Meta(description="one length from 1e-9 to 1e9, one per strip, or a table [[position, width], …]")]
     amplitude: Length
     samples: Annotated[int, Meta(ge=3, le=20_000, description="a whole number from 3 to 20000")] = 200
     spacing: Annotated[Literal["mirror", "uniform"],

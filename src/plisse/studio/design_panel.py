@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from typing import TYPE_CHECKING
 
 from plisse.studio.fields import Field, fields_of
@@ -14,6 +15,8 @@ if TYPE_CHECKING:
 __all__ = ["DesignPanel"]
 
 LIST = "a number, or a list: one value per crease or strip"
+WIDE = 4.0  # times the range of the field is too wide
+HAND = 2.0  # seconds after which a slider was let go
 DIGITS = 6  # after the point, in what is typed
 
 
@@ -26,6 +29,8 @@ class DesignPanel:
         self._folders: list = []
         self._controls: dict[tuple[str, str], object] = {}
         self._shape: list = []
+        self._held = ""  # the key of the control on which somebody's hand may be
+        self._rest: asyncio.TimerHandle | None = None
 
     def refresh(self) -> None:
         """Bring the controls to the design on the desk."""
@@ -37,11 +42,34 @@ class DesignPanel:
             return
         for field in fields:
             control = self._controls[field.key, field.kind]
-            if field.kind in ("slider", "whole"):
-                control.min, control.max = min(control.min, field.value), max(control.max, field.value)  # type: ignore
-            shown = field.shown
-            if control.value != shown:  # type: ignore[attr-defined]
-                control.value = shown  # type: ignore[attr-defined]
+            with self._tab.client.atomic():
+                if field.kind in ("slider", "whole") and self._has_outgrown(control, field):
+                    self._fit(control, field)
+                shown = field.shown
+                if control.value != shown:  # type: ignore[attr-defined]
+                    control.value = shown  # type: ignore[attr-defined]
+
+    def _has_outgrown(self, slider, field: Field) -> bool:
+        """Whether a slider ends before the value, or is far too wide for it while nobody's hand is on it."""
+        assert field.low is not None and field.high is not None
+        is_wide = slider.max - slider.min > WIDE * (field.high - field.low)
+        return not slider.min <= field.value <= slider.max or (is_wide and self._held != field.key)
+
+    def _hold(self, key: str) -> None:
+        """Keep the ends of a slider as they are for as long as it is moved."""
+        if self._rest is not None:
+            self._rest.cancel()
+        self._held, self._rest = key, asyncio.get_running_loop().call_later(HAND, self._let_go)
+
+    def _let_go(self) -> None:
+        self._held = ""
+        if self._tab.is_open:
+            self.refresh()
+
+    def _fit(self, slider, field: Field) -> None:
+        """Bring the ends of a slider to those of the field."""
+        whole = int if field.kind == "whole" else float
+        slider.min, slider.max, slider.step = whole(field.low), whole(field.high), whole(field.step)  # type: ignore
 
     def _build(self, fields: list[Field]) -> None:
         for folder in self._folders:
@@ -91,6 +119,7 @@ class DesignPanel:
             if event.client is None:
                 return
             value = event.target.value
+            self._hold(field.key)
             self._tab.act(lambda: self._tab.desk.change(fitted(self._tab.desk.recipe, {field.key: field.meant(value)})))
 
         return changed

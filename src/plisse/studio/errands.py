@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from plisse.errors import PlisseError
-from plisse.recipe import SurfaceDesign
+from plisse.recipe import Recipe, SurfaceDesign
 from plisse.result import Result
 from plisse.studio.child import Answer, Failure, Stage
 from plisse.studio.downloads import KINDS, Order, file_name
@@ -28,6 +28,7 @@ class Errands:
         self._tab = tab
         self._helper: Worker | None = None
         self._waiting: list[Callable[[Result], None]] = []
+        self._measured: Recipe | None = None
 
     def take(self, kind: str, **manner: Any) -> None:
         """Make a file of what is on screen, in a manner as `Order` has it; raises PlisseError for kinds that are none."""
@@ -51,6 +52,7 @@ class Errands:
 
     def measure_reach(self) -> None:
         """Find the free range of the motion and of offsets."""
+        self._measured = self._tab.desk.solvable
         self._with_result(lambda result: None if result.structure is None else self._ask(Reach(result.structure)))
 
     def receive(self, request: Request, message: Answer | Failure | Stage) -> None:
@@ -81,7 +83,8 @@ class Errands:
             tab.client.send_file_download(name, value, save_immediately=True)
             tab.panels.note(f"{name} is in your downloads")
         elif isinstance(request, Reach):
-            tab.show_reach(*value)
+            if self._measured == tab.desk.solvable:
+                tab.show_reach(*value)
         elif isinstance(request, Mesh):
             tab.read(f'[surface]\nfile = "{request.name}"\n', request.name.rpartition(".")[0])
         elif isinstance(request, Candidates):

@@ -15,7 +15,8 @@ FIELD_OF_VIEW = np.radians(30)
 FILLED = 0.9  # of the window
 NARROW, BAR = 640, 50  # pixels: windows that are narrower have a bar of this height over their lower end
 APART, SMALLEST = 0.08, 0.9
-SEEN, TINY = 1.02, 0.5  # shares of half the window: what still counts as inside, and what as too small
+SEEN = 1.02  # how far from the middle, 1 at the rim, still counts as inside the window
+TINY = 0.5  # share of the window that counts as too small
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,10 +65,18 @@ class Window:
 
     def reach(self, points: np.ndarray, camera) -> float:
         """How far points (N, 3) reach from the middle of the window as `camera` stands, 1 at the rim; infinite behind it."""
+        places = self._places(points, camera)
+        return np.inf if places is None else float(np.abs(places).max())
+
+    def share(self, points: np.ndarray, camera) -> float:
+        """How much of the window's width or height points (N, 3) take as `camera` stands; infinite behind it."""
+        places = self._places(points, camera)
+        return np.inf if places is None else float(0.5 * np.ptp(places, axis=0).max())
+
+    def _places(self, points: np.ndarray, camera) -> np.ndarray | None:
+        """Places (N, 2) in the window, −1 to 1 from rim to rim; None where some are behind the camera."""
         seen = (points - camera.position) @ Camera.looking_from(camera.position - camera.look_at, camera.up_direction).axes.T
-        if seen[:, 2].max() >= 0:
-            return np.inf
-        return float((np.abs(seen[:, :2] / seen[:, 2:]) / self.slopes).max())
+        return None if seen[:, 2].max() >= 0 else seen[:, :2] / -seen[:, 2:] / self.slopes
 
 
 @dataclass(frozen=True, eq=False)

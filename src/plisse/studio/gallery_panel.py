@@ -22,7 +22,8 @@ def thumbnail_html(name: str) -> str:
     if picture.is_file():
         data = base64.b64encode(picture.read_bytes()).decode()
         image = f"<img alt='{escape(name)}' src='data:image/png;base64,{data}' style='width:100%;max-width:240px'>"
-    return f"<div style='font-size:0.86em;padding:0 0.7em'>{image}<div>{escape(description(name))}</div></div>"
+    words = f"<div>{escape(description(name))}</div>"
+    return f"<div class='plisse-design' style='font-size:0.86em;padding:0 0.7em'>{image}{words}</div>"
 
 
 class GalleryPanel:

@@ -19,11 +19,12 @@ if TYPE_CHECKING:
 
 __all__ = ["LookPanel", "legend_html", "scale_html"]
 
-PAPER = "paper"
+PAPER, SHEET = "paper", "sheet"
 SWITCHES = (("rulings", "rulings"), ("creases", "creases"), ("sheet", "flat sheet beside"), ("seed", "seed curve"),
             ("reference", "reference surface"))
 LINES = ((colours.MOUNTAIN, False, "mountain"), (colours.VALLEY, True, "valley"), (colours.EDGE, False, "edge"))
 STROKE = 10  # pixels from dash to dash in the legend
+END = 0.02  # of the colour bar
 THIN = 0.006  # plates, in radii of the structure
 TURN, FRAMES = 2 * np.pi / 12, 25  # radians and pictures per second
 
@@ -31,11 +32,17 @@ TURN, FRAMES = 2 * np.pi / 12, 25  # radians and pictures per second
 def scale_html(tint: Tint) -> str:
     """A colour bar with its ticks."""
     stops = ",".join(f"rgb({red},{green},{blue})" for red, green, blue in tint.bar.tolist())
-    style = "position:absolute;transform:translateX(-50%);left:"
-    marks = "".join(f"<span style='{style}{100 * place:.1f}%'>{escape(label)}</span>" for place, label in tint.ticks)
+    marks = "".join(_tick(place, label) for place, label in tint.ticks)
     return (f"<div style='font-size:0.8em;padding:0 1.5em'>{escape(tint.title)}"
             f"<div style='height:0.8em;background:linear-gradient(to right,{stops});border:1px solid #7b7268'></div>"
             f"<div style='position:relative;height:1.4em'>{marks}</div></div>")
+
+
+def _tick(place: float, label: str) -> str:
+    """A label in the middle below its place, or within the bar where that is an end of it."""
+    share = 0 if place < END else 100 if place > 1 - END else 50
+    return (f"<span style='position:absolute;white-space:nowrap;transform:translateX(-{share}%);left:{100 * place:.1f}%'>"
+            f"{escape(label)}</span>")
 
 
 def legend_html(scale_of_sheet: float) -> str:
@@ -68,7 +75,7 @@ class LookPanel:
             self._colours = gui.add_dropdown("colours", (PAPER, *NAMES))
             self._scale = gui.add_html("", visible=False)
         with gui.add_folder("Thick"):
-            self._kind = gui.add_dropdown("as", ("sheet", "plates", "offset"))
+            self._kind = gui.add_dropdown("as", (SHEET, "plates", "offset"), hint="Plates and offsets have no colours")
             self._length = gui.add_number("thickness or distance", 1.0, step=0.1)
             self._words = gui.add_markdown("", visible=False)
         with gui.add_folder("Camera"):
@@ -82,8 +89,13 @@ class LookPanel:
         self._turntable.on_update(self._turned)
 
     def refresh(self) -> None:
-        """Bring the legend to what is on screen."""
+        """Bring the legend and the choice of plates to what is on screen."""
         self._legend.content = legend_html(self._tab.scene.scale_of_sheet)
+        kind, length = self._tab.solid
+        if self._kind.value != (kind or SHEET):
+            self._kind.value = kind or SHEET
+        if kind and self._length.value != length:
+            self._length.value = length
 
     def show_paper(self) -> None:
         """Set the choice of colours to none."""
@@ -128,11 +140,17 @@ class LookPanel:
 
     async def _painted(self, event) -> None:
         if event.client is not None:
+            if self._colours.value != PAPER and self._kind.value != SHEET:  # only the sheet has colours
+                self._kind.value = SHEET
+                self._tab.solidify("", float(self._length.value))
             self._tab.paint("" if self._colours.value == PAPER else self._colours.value)
 
     async def _solidified(self, event) -> None:
         if event.client is not None:
-            self._tab.solidify("" if self._kind.value == "sheet" else self._kind.value, float(self._length.value))
+            if self._kind.value != SHEET and self._tab.colour:
+                self.show_paper()
+                self._tab.paint("")
+            self._tab.solidify("" if self._kind.value == SHEET else self._kind.value, float(self._length.value))
 
     async def _frame(self, _event) -> None:
         self._tab.scene.frame()

@@ -53,7 +53,7 @@
   });
   // what is typed is taken when the box is left, on Enter, or, where it is a number, after a rest: React does not see it
   // before. What is no number goes back to the one that holds, as all does on Escape
-  const NUMBER = "input[inputmode=decimal], input[inputmode=numeric]", REST = 800;
+  const NUMBER = "input[inputmode=decimal], input[inputmode=numeric]", REST = 800, DIGITS = 6;
   const TYPED = `${NUMBER}, .mantine-TextInput-input, .mantine-Textarea-input`;
   const write = (box, text) => {
     const kind = box.matches("textarea") ? HTMLTextAreaElement : HTMLInputElement;
@@ -62,8 +62,17 @@
   const plain = (text) => {
     const [, number] = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)[^\d]*$/i.exec(text.replace(",", ".")) ?? [];
     return Number.isFinite(Number(number))
-      ? Number(number).toLocaleString("en", { useGrouping: false, maximumFractionDigits: 12 }) : null;
+      ? Number(number).toLocaleString("en", { useGrouping: false, maximumFractionDigits: DIGITS }) : null;
   };
+  const say = (box, sentence) => {
+    hush();
+    const note = document.createElement("div");
+    Object.assign(note, { id: "plisse-note", role: "alert", textContent: sentence });
+    box.closest(".mantine-Flex-root")?.append(note);
+  };
+  const hush = () => document.getElementById("plisse-note")?.remove();
+  window.addEventListener("pointerdown", hush, true);
+  window.addEventListener("keydown", ({ key }) => { if (key !== "Tab") hush(); }, true);
   let resting;
   const take = (box) => {
     clearTimeout(resting);
@@ -77,7 +86,10 @@
     if (box.matches(NUMBER)) resting = setTimeout(() => { if (plain(box.value) === box.value) take(box); }, REST);
   }, true);
   document.addEventListener("change", ({ target }) => {
-    if (target.matches(NUMBER)) write(target, plain(target.value) ?? target.defaultValue);
+    if (!target.matches(NUMBER)) return;
+    const typed = target.value, number = plain(typed);
+    write(target, number ?? target.defaultValue);
+    if (number === null) say(target, `“${typed}” is no number that can be used; ${target.value} stays`);
   }, true);
   document.addEventListener("keydown", (event) => {
     const box = event.target;
@@ -92,6 +104,11 @@
     take(event.target);
     event.stopPropagation();  // viser would bring numbers within the limits of the slider, which are not those of the design
   }, true);
+  // a window of the studio is closed by Escape and by a click beside it, as its own button does
+  const shut = () => [...document.querySelectorAll(".mantine-Modal-content button")]
+    .findLast((button) => button.innerText === "Close")?.click();
+  document.addEventListener("keydown", ({ key }) => { if (key === "Escape") shut(); }, true);
+  document.addEventListener("click", ({ target }) => { if (target.matches(".mantine-Modal-overlay, .mantine-Modal-inner")) shut(); });
   let waiting = false;
   new MutationObserver(() => {
     if (waiting) return;

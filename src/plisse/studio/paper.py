@@ -39,7 +39,9 @@ class Paper:
 
     @property
     def points(self) -> np.ndarray:
-        """Points (N, 3) of the paper on screen."""
+        """Points (N, 3) of the paper on screen; none where nothing is shown."""
+        if not self._sides or not self._frame.visible:
+            return np.empty((0, 3))
         return np.asarray(self._sides[0].vertices, dtype=float)
 
     def show(self, view: View | None, shown: Shown) -> None:
@@ -73,9 +75,9 @@ class Paper:
             mesh.visible = False
 
     def pale(self) -> None:
-        """Make the paper pale and leave its lines out."""
+        """Make the paper pale, also where something was shown instead of it, and leave its lines out."""
         for mesh in self._sides:
-            mesh.opacity = PALE
+            mesh.opacity, mesh.visible = PALE, True
         for node in self._lines.values():
             node.visible = False
 

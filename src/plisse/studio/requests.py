@@ -37,7 +37,7 @@ __all__ = [
 
 
 class Request:
-    """A question with the seconds it may take; a newer one of the same lane makes it stale."""
+    """A question with the seconds it may take; newer ones that outdate its lane make it stale."""
 
     limit: ClassVar[float] = 30.0
 
@@ -45,6 +45,16 @@ class Request:
     def lane(self) -> str:
         """What kind of question it is."""
         return type(self).__name__
+
+    @property
+    def outdates(self) -> tuple[str, ...]:
+        """The lanes whose older questions it makes stale."""
+        return (self.lane,)
+
+    @property
+    def is_brief(self) -> bool:
+        """Whether it is let finish once begun, although a newer one has come, unless it takes long."""
+        return False
 
     def run(self, bench: Bench, progress: Progress) -> Any:
         """The answer; errors that plisse foresees are raised."""
@@ -74,13 +84,32 @@ class Found:
 
 @dataclass(frozen=True)
 class Solve(Request):
-    """The structure of a recipe; `framed` asks for a camera as well, `colour` for a map if the structure has it."""
+    """The structure of a recipe; `framed` asks for a camera as well, `colour` for a map if the structure has it.
+
+    Drafts, and what is as `quick` as one, are let finish, so that the picture follows while a design is pulled.
+    """
 
     limit: ClassVar[float] = 300.0
     recipe: Recipe
     framed: bool = False
     drafted: bool = False
     colour: str = ""
+    quick: bool = False
+
+    @property
+    def lane(self) -> str:
+        """Drafts wait beside the whole."""
+        return "Draft" if self.drafted else "Solve"
+
+    @property
+    def outdates(self) -> tuple[str, ...]:
+        """A draft is that of a newer design than all before it."""
+        return ("Draft", "Solve") if self.drafted else ("Solve",)
+
+    @property
+    def is_brief(self) -> bool:
+        """Whether it shows something while a design is pulled."""
+        return self.drafted or self.quick
 
     def run(self, bench: Bench, progress: Progress) -> Found:
         """Everything the scene needs."""

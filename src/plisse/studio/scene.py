@@ -38,7 +38,7 @@ class Scene:
         self._view: View | None = None
         self._best = Camera(np.eye(3), np.array([0.0, 1.0, 0.0]))
         self._manner = Manner(below=client.camera.aspect < 1)
-        self._known: np.ndarray | None = None
+        self._known = np.empty((0, 3)), np.empty((0, 3))
         self._stood: Stand | None = None
         self._aspect = client.camera.aspect
         client.camera.on_update(self._resized)
@@ -74,6 +74,8 @@ class Scene:
     def height_of_paper(self) -> float:
         """Smallest extent of the paper as it is on screen: that of the flat sheet is 0."""
         points = self.points
+        if not len(points):
+            return 0.0
         return float(np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[-1] / np.sqrt(len(points)))
 
     def show(self, found: Found) -> None:
@@ -111,8 +113,8 @@ class Scene:
         self._grooves.stop()
 
     def pale(self) -> None:
-        """Show that what is on screen is not the structure of the design any more."""
-        self.is_pale = True
+        """Show that what is on screen, if anything is, is not the structure of the design any more."""
+        self.is_pale = self._view is not None
         with self._client.atomic():
             self._drop_tint()
             self._grooves.leave()
@@ -143,13 +145,14 @@ class Scene:
 
     def follow(self) -> None:
         """Move the camera back or forth where what it showed has left the window or become small; else leave it alone."""
-        points, known, camera = self._everything, self._known, self._client.camera
-        self._known = points
-        if known is None or not len(known) or not len(points):
+        known, self._known, camera = self._known, self._in_view, self._client.camera
+        if not all(map(len, (*known, *self._known))):
             return
         window = Window.of(camera)
-        before, now = window.reach(known, camera), window.reach(points, camera)
-        if (now > SEEN >= before) or (now < TINY <= before):
+        has_left = any(window.reach(now, camera) > SEEN >= window.reach(before, camera)
+                       for before, now in zip(known, self._known, strict=True))
+        before, now = (window.share(structure, camera) for structure, _ in (known, self._known))
+        if has_left or now < TINY <= before:
             self._stand(Camera.looking_from(camera.position - camera.look_at, camera.up_direction))
 
     async def _resized(self, camera) -> None:
@@ -162,13 +165,20 @@ class Scene:
             self._stand(Camera.looking_from(camera.position - camera.look_at, camera.up_direction))
 
     def _stand(self, view: Camera) -> None:
-        """Put the camera where everything fills the window as seen in a direction."""
+        """Put the camera where everything fills the window as seen in a direction, if there is anything."""
         camera, points = self._client.camera, self._everything
+        if not len(points):
+            return
         stand = Window.of(camera).stand(points, view.axes)
         self._stood, self._aspect = stand, camera.aspect
         camera.near, camera.far = 0.002 * stand.distance, 50 * stand.distance
         camera.position, camera.look_at, camera.up_direction = stand.position, stand.middle, view.upright
-        self._known = points
+        self._known = self._in_view
+
+    @property
+    def _in_view(self) -> tuple[np.ndarray, np.ndarray]:
+        """Points (N, 3) of the structure, or what is shown instead of it, alone, and with the sheet beside."""
+        return np.empty((0, 3)) if self._view is None else self._view.points, self._everything
 
     @property
     def _everything(self) -> np.ndarray:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from plisse.studio.requests import Colour, Found, Pose, Request, Solid, Solve
 from plisse.studio.scene import Scene
 from plisse.studio.status import broken, refused, remark, solved, working
 from plisse.studio.uploads import Uploads
-from plisse.studio.waiting import Waiting
+from plisse.studio.waiting import Later, Waiting
 from plisse.studio.worker import Process, Worker
 from plisse.transform.collisions import DESIGNED, FreeRange
 
@@ -45,10 +46,12 @@ class Tab:
         self.colour = ""
         self.solid: tuple[str, float] = "", 0.0
         self.percent = DESIGNED
+        self._asked: Request | None = None  # for a pose, a solid or colours
+        self._held = self.percent, self.solid  # what is on screen
         self.is_open = True
-        self._framed = self._is_refused = False
-        self._refusal = ""
-        self._rest: asyncio.TimerHandle | None = None
+        self._framed = False
+        self._refusal = ""  # what stands above the status, empty for nothing
+        self._rest, self._longer = Later(loop, REST), Later(loop, LONGER)
         self.free: FreeRange | None = None
         self._waiting = Waiting(loop, self._say_late)
         self._hands = Worker(self.deliver, start)
@@ -59,8 +62,11 @@ class Tab:
         self.panels = Panels(self)
         self._solve(at_once=True)
 
-    def act(self, action: Callable[[], object]) -> None:
-        """Do something with the design and show what it comes to; what is refused is said in a sentence."""
+    def act(self, action: Callable[[], object], *, framed: bool = True) -> None:
+        """Do something with the design and show what it comes to, where it is not `framed` from the best side.
+
+        What is refused is said in a sentence.
+        """
         before = self.desk.step
         try:
             action()
@@ -68,9 +74,10 @@ class Tab:
             self.refuse(str(error))
             return self.panels.refresh()
         if self.desk.step is not before:
-            self._is_refused = False
+            self._refusal = ""
+            self._framed = self._framed and framed
             self._solve()
-        elif self._is_refused:
+        elif self._refusal:
             self.say_found()
         return self.panels.refresh()
 
@@ -80,13 +87,11 @@ class Tab:
 
     def open_shipped(self, name: str) -> None:
         """Open a design of the gallery."""
-        self._framed = False
-        self.act(lambda: self.desk.open(read_design(shipped_design(name)), name))
+        self.act(lambda: self.desk.open(read_design(shipped_design(name)), name), framed=False)
 
     def read(self, text: str, title: str = "") -> None:
         """Open a design from its text."""
-        self._framed = False
-        self.act(lambda: self.desk.read(text, title))
+        self.act(lambda: self.desk.read(text, title), framed=False)
 
     def pose(self, percent: float) -> None:
         """Show a state of the motion."""
@@ -110,12 +115,12 @@ class Tab:
 
     def refuse(self, sentence: str) -> None:
         """Say that something was not done; what is on screen stays."""
-        self._is_refused, self._refusal = True, sentence
+        self._refusal = sentence
         self.panels.say(refused(sentence, self.found, self.desk.step.title))
 
     def say_found(self) -> None:
         """Say what is on screen."""
-        self._is_refused = False
+        self._refusal = ""
         if self.found is not None:
             self.panels.say(solved(self.found, self.desk.step.title, remark(self.scene.is_pale, self.percent, self.free)))
 
@@ -136,7 +141,7 @@ class Tab:
     def close(self) -> None:
         """End the processes and remove the files."""
         self.is_open = False
-        for stop in (lambda: self._later(None), self._waiting.cancel, self.scene.close):
+        for stop in (self._rest.cancel, self._longer.cancel, self._waiting.cancel, self.scene.close):
             self._loop.call_soon_threadsafe(stop)
         self._hands.close()
         self.errands.close()
@@ -145,15 +150,16 @@ class Tab:
     def _solve(self, at_once: bool = False) -> None:
         """Ask for the design on the desk: a draft while it changes where the whole would take too long."""
         recipe = self.desk.solvable
-        self._later(None)
-        draft = self._pace.draft(recipe)
+        self._rest.cancel()
+        self._longer.cancel()
+        draft, waits = self._pace.draft(recipe), self._pace.waits(recipe)
         if draft is not None:
             self._ask_solve(Solve(draft, drafted=True, colour=self.colour))
-        whole = Solve(recipe, framed=not self._framed, colour=self.colour)
-        if at_once or not self._pace.waits(recipe):
+        whole = Solve(recipe, framed=not self._framed, colour=self.colour, quick=not waits)
+        if at_once or not waits:
             self._ask_solve(whole)
         else:
-            self._later(lambda: self._ask_solve(whole))
+            self._rest.begin(lambda: self._ask_solve(whole))
 
     def _ask_solve(self, request: Solve) -> None:
         """Ask for a solve, and say so where nothing comes of it for a while."""
@@ -166,13 +172,8 @@ class Tab:
 
     def _say_pose(self) -> None:
         """Say again what is on screen, where nothing else is to be said."""
-        if self._waiting.is_over and not self._is_refused:
+        if self._waiting.is_over and not self._refusal:
             self.say_found()
-
-    def _later(self, action: Callable | None, seconds: float = REST) -> None:
-        if self._rest is not None:
-            self._rest.cancel()
-        self._rest = None if action is None else self._loop.call_later(seconds, action)
 
     def _point_moved(self, index: int, position: np.ndarray) -> None:
         points = control_points_of(self.desk.recipe)
@@ -191,47 +192,68 @@ class Tab:
             return None
         if isinstance(request, Solve):
             self._waiting.end(request)
-        return self._break(request, message.sentence) if isinstance(message, Failure) else self._take_in(request, message)
+            return self._end_solve(request, message)
+        if request is not self._asked:
+            return None
+        if isinstance(message, Failure):
+            return self._break(request, message.sentence)
+        return self._take_in(request, message.value)
 
-    def _take_in(self, request: Request, answer: Answer) -> None:
-        value = answer.value
-        if self._is_refused and not isinstance(request, Solve):
+    def _end_solve(self, request: Solve, message: Answer | Failure) -> None:
+        """Show a solve; one of a design that is not wanted any more only while the design is pulled, as a draft."""
+        is_final = not request.drafted and request.recipe == self.desk.solvable
+        if isinstance(message, Failure):
+            return self._break_down(message.sentence) if is_final else None
+        self._pace.learn(message.value, message.seconds)
+        if is_final:
+            self._show(request, message.value)
+            self._finish(request, message.value)
+        elif request.is_brief:
+            self._show(request, replace(message.value, drafted=True))
+        return None
+
+    def _take_in(self, request: Request, value: Any) -> None:
+        """Show the structure as it was asked for last."""
+        self._hold()
+        if self._refusal:
             self.say_found()
-        if isinstance(request, Solve):
-            self._show(request, value, answer.seconds)
-        elif isinstance(request, Pose):
-            if request.percent == self.percent:
-                self.scene.pose(value)
-        elif isinstance(request, Solid):
-            if self.solid == (request.kind, request.length):
-                self.scene.pose(value)
-        elif isinstance(request, Colour) and self.colour == request.name:
+        if isinstance(request, Colour):
             self.scene.tint(value)
             self.panels.show_scale(value)
+        else:
+            self.scene.pose(value)
+
+    def _hold(self) -> None:
+        """Remember what is on screen, for what is refused goes back to it."""
+        self._asked, self._held = None, (self.percent, self.solid)
+
+    def _break_down(self, sentence: str) -> None:
+        """Say why there is no structure; what was on screen before is pale."""
+        self.scene.pale()
+        self.panels.say(broken(sentence, self.found if self.scene.is_pale else None))
+        self.found = self._asked = None
 
     def _break(self, request: Request, sentence: str) -> None:
-        """Say why there is nothing; where that is the whole design, what was on screen before is pale."""
-        if isinstance(request, Solve):
-            if not request.drafted:
-                self.scene.pale()
-                self.panels.say(broken(sentence, self.found))
-                self.found = None
-            return
+        """Go back to what is on screen, and say why."""
+        self._asked = None
         if isinstance(request, Colour):
             self._to_paper()
+        else:
+            self.percent, self.solid = self._held
         self.refuse(sentence)
+        self.panels.refresh()
 
     def _to_paper(self) -> None:
         self.colour = ""
         self.panels.show_paper()
         self._dress()
 
-    def _show(self, request: Solve, found: Found, seconds: float) -> None:
-        if not request.drafted:
-            self._pace.learn(found, seconds)
+    def _show(self, request: Solve, found: Found) -> None:
         self.found, self.free = found, None
         self.percent = DESIGNED
-        if found.folded is None and not (request.framed and found.reference is not None):
+        self._asked, self._held = None, (DESIGNED, ("", 0.0))
+        is_bare_surface = request.framed and found.reference is not None
+        if found.folded is None and not is_bare_surface:
             self.scene.pale()
         else:
             self.scene.show(found)
@@ -245,19 +267,21 @@ class Tab:
         elif not self.handles.is_pulled:
             self.scene.follow()
         self.show_handles()
-        if self._is_refused:
+        if self._refusal:
             self.refuse(self._refusal)  # which came while this was solved
         else:
             self.say_found()
         self.panels.forget_reach()
         self.panels.refresh()
-        if not request.drafted:
-            if self.solid[0] or self.colour != request.colour:
-                self._dress()
-            elif self.colour and found.tint is None:
-                self._to_paper()
-            if found.report.principal:
-                self._later(self.errands.measure_reach, LONGER)
+
+    def _finish(self, request: Solve, found: Found) -> None:
+        """Show what is on screen in full as it is chosen, and measure what takes longer."""
+        if self.solid[0] or self.colour != request.colour:
+            self._dress()
+        elif self.colour and found.tint is None:
+            self._to_paper()
+        if found.report.principal:
+            self._longer.begin(self.errands.measure_reach)
 
     def _stand_still(self) -> None:
         """Go back to the structure as it was designed, and show it as it is chosen."""
@@ -271,11 +295,16 @@ class Tab:
         if self.found is None or self.found.folded is None:
             pass  # what is pale stays as it is
         elif self.percent != DESIGNED:
-            self._hands.ask(Pose(self.desk.solvable, self.percent))
+            self._wear(Pose(self.desk.solvable, self.percent))
         elif self.solid[0]:
-            self._hands.ask(Solid(self.desk.solvable, *self.solid))
+            self._wear(Solid(self.desk.solvable, *self.solid))
         elif self.colour:
-            return self._hands.ask(Colour(self.desk.solvable, self.colour))
+            return self._wear(Colour(self.desk.solvable, self.colour))
         else:
             self.scene.show(self.found)
+            self._hold()
         return self.panels.show_scale(None)
+
+    def _wear(self, request: Pose | Solid | Colour) -> None:
+        self._asked = request
+        self._hands.ask(request)

@@ -1,4 +1,4 @@
-"""What is waited for: the newest solve, and when it is late."""
+"""What is waited for: the newest solve, when it is late, and a while without changes."""
 
 from __future__ import annotations
 
@@ -7,9 +7,28 @@ from collections.abc import Callable
 
 from plisse.studio.requests import Solve
 
-__all__ = ["Waiting"]
+__all__ = ["Later", "Waiting"]
 
 LATE = 0.4  # seconds after which a solve is said to be under way
+
+
+class Later:
+    """One action that is to come after some seconds; a new one takes the place of that before."""
+
+    def __init__(self, loop: asyncio.AbstractEventLoop, seconds: float):
+        self._loop, self._seconds = loop, seconds
+        self._timer: asyncio.TimerHandle | None = None
+
+    def begin(self, action: Callable[[], None]) -> None:
+        """Do something when the seconds are over."""
+        self.cancel()
+        self._timer = self._loop.call_later(self._seconds, action)
+
+    def cancel(self) -> None:
+        """Do nothing."""
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
 
 
 class Waiting:
@@ -38,7 +57,7 @@ class Waiting:
         self._timer, self.is_late = None, False
         if request is self._asked:
             self._asked = None
-        else:
+        elif self._asked is not None:
             self._timer = self._loop.call_later(LATE, self._grow_late)
 
     def cancel(self) -> None:

@@ -28,8 +28,9 @@ Deliver = Callable[[Request, Answer | Failure | Stage], None]
 class Worker:
     """A thread that hands requests to a process and delivers its answers.
 
-    Of every lane only the newest request is kept; the running one is dropped when a newer one of its lane comes, and its
-    process is ended where it does not listen. `deliver` is called from the thread, never for stale requests.
+    Of every lane only the newest request is kept; the running one is dropped when one that outdates it comes, at once or,
+    where it is brief, when it takes long, and its process is ended where it does not listen. `deliver` is called from the
+    thread, never for requests that were dropped.
     """
 
     def __init__(self, deliver: Deliver, start: Callable[[], Process] | None = None):
@@ -43,10 +44,11 @@ class Worker:
         self._thread.start()
 
     def ask(self, request: Request) -> None:
-        """Ask for something; an older question of its lane is forgotten."""
+        """Ask for something; older questions that it outdates are forgotten."""
         with self._changed:
             self._count += 1
-            self._waiting.pop(request.lane, None)
+            for lane in request.outdates:
+                self._waiting.pop(lane, None)
             self._waiting[request.lane] = (self._count, request)
             self._changed.notify()
 
@@ -73,7 +75,7 @@ class Worker:
         while (entry := self._next()) is not None:
             number, request = entry
             outcome = self._outcome(number, request)
-            if outcome is not None and not self._closed and not self._is_stale(request):
+            if outcome is not None and not self._closed and (request.is_brief or not self._is_stale(request)):
                 self._deliver(request, outcome)
 
     def _next(self) -> tuple[int, Request] | None:
@@ -85,7 +87,8 @@ class Worker:
             return self._waiting.pop(next(iter(self._waiting)))
 
     def _is_stale(self, request: Request) -> bool:
-        return request.lane in self._waiting
+        with self._changed:
+            return any(request.lane in newer.outdates for _, newer in self._waiting.values())
 
     def _outcome(self, number: int, request: Request) -> Answer | Failure | None:
         """What the request came to; None where it was dropped."""
@@ -93,7 +96,10 @@ class Worker:
             self._process.end()
             self._process = None
         if self._process is None:
-            self._process = self._start()
+            try:
+                self._process = self._start()
+            except OSError as error:
+                return Failure(number, f"no process can be started ({error.strerror}); close other programs and try again")
         process, begun, told = self._process, monotonic(), False
         process.send(number, request)
         while True:
@@ -108,14 +114,15 @@ class Worker:
                 self._process = None
                 return Failure(number, f"solving ended its process (code {process.end()}); take the last step back, or try "
                                        "something smaller")
-            if self._is_stale(request) and not told:
+            seconds, is_stale = monotonic() - begun, self._is_stale(request)
+            grace = PATIENCE if request.is_brief else 0.0
+            if is_stale and seconds > grace and not told:
                 process.send(number, None)
                 told = True
-            seconds = monotonic() - begun
-            if seconds > (PATIENCE if self._is_stale(request) else request.limit + START * process.is_new):
+            if seconds > (grace + PATIENCE if is_stale else request.limit + START * process.is_new):
                 process.end()
                 self._process = None
-                return None if self._is_stale(request) else Failure(
+                return None if is_stale else Failure(
                     number, f"this took longer than {request.limit:.0f} seconds and was ended; try something smaller")
 
 

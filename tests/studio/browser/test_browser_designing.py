@@ -147,6 +147,35 @@ def test_a_design_of_the_gallery_is_picked_by_its_picture_and_painted(visitor):
     visitor.wait_for("opening angle of creases")
 
 
+def test_the_gallery_stands_side_by_side_and_closes_by_escape_and_by_a_click_beside_it(visitor):
+    page = visitor.page
+    for leave in (lambda: page.keyboard.press("Escape"), lambda: page.mouse.click(20, 450)):
+        visitor.button("Gallery …")
+        page.get_by_role("img", name="fig16").wait_for()
+        places = [box.bounding_box() for box in page.get_by_role("button", name="Open fig").all()]
+        assert len({round(place["x"]) for place in places}) >= 2
+        leave()
+        until(lambda: page.get_by_role("dialog").count() == 0)
+
+
+def test_a_text_of_another_length_is_read_by_one_click(visitor):
+    """With the mouse, which is down on the button before the box is left."""
+    visitor.tab("Take away")
+    box, before = visitor.page.get_by_label("design (TOML)"), ""
+    for text in ("a = [", "creases = 1\n" * 80):
+        box.click()
+        box.fill(text)
+        button = visitor.page.get_by_role("button", name="Read the text above", exact=True)
+        button.scroll_into_view_if_needed()
+        place = button.bounding_box()
+        visitor.page.mouse.move(place["x"] + place["width"] / 2, place["y"] + 3)
+        visitor.page.mouse.down()
+        visitor.page.mouse.up()
+        alert = visitor.page.locator("[role=status] [role=alert]")
+        until(lambda before=before, alert=alert: alert.count() == 1 and alert.inner_text() != before)
+        before = alert.inner_text()
+
+
 def test_what_is_refused_or_infeasible_is_said_with_its_place_and_can_be_taken_back(visitor):
     """A steep helix cuts through itself; pleats wider than the radius of their curve break down."""
     tab, before = visitor.tab_behind, visitor.text
@@ -191,7 +220,14 @@ def test_what_is_typed_counts_when_it_is_complete_and_what_is_refused_goes_back(
     typed(f"{THETA}, as a number", "33.25", "Tab")
     until(lambda: tab.desk.recipe.pattern.theta == 33.25)
     until(lambda: alert.count() == 0)
-    stands(typed(f"{THETA}, as a number", "abc", "Tab"), "33.25")
+    note = page.locator("#plisse-note")
+    for text in ("abc", "1e400", "1.000,5"):
+        stands(typed(f"{THETA}, as a number", text, "Tab"), "33.25")
+        assert f"“{text}” is no number" in note.inner_text()
+    typed(f"{THETA}, as a number", "33.123456789", "Tab")
+    until(lambda: tab.desk.recipe.pattern.theta == 33.123457)
+    assert note.count() == 0
+    stands(typed(f"{THETA}, as a number", "33.25", "Tab"), "33.25")
     stands(typed(f"{THETA}, as a number", "12", "Escape"), "33.25")
     typed(f"{THETA}, as a number", "3", "4")  # and then nothing for a while
     until(lambda: tab.desk.recipe.pattern.theta == 34)
@@ -199,6 +235,8 @@ def test_what_is_typed_counts_when_it_is_complete_and_what_is_refused_goes_back(
     until(lambda: tab.desk.recipe.pattern.width == 25.5)
     visitor.button("undo")
     until(lambda: tab.desk.recipe.pattern.width == 5)
+    slider = page.get_by_role("slider", name="width (mm)", exact=True)
+    until(lambda: float(slider.get_attribute("aria-valuemax")) == 20)  # as it was before
     visitor.fold_out("Width of single strips")
     visitor.choose("width is", "one by one")
     box = typed("all strips", "[5, 6")

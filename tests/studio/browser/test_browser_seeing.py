@@ -47,6 +47,11 @@ def test_plates_offsets_colours_and_lines_are_switches_that_can_be_taken_back(vi
     visitor.tick("rulings")
     until(lambda: not np.array_equal(visitor.seen(), painted))
     assert visitor.node("/colours") is not None
+    visitor.choose("as", "plates")
+    until(lambda: visitor.page.get_by_label("colours", exact=True).input_value() == "paper" and tab.colour == "")
+    visitor.choose("colours", "opening")
+    until(lambda: visitor.page.get_by_label("as", exact=True).input_value() == "sheet")
+    until(lambda: visitor.node("/colours") is not None)
     visitor.choose("colours", "paper")
     until(lambda: visitor.node("/colours") is None)
 
