@@ -2,8 +2,7 @@
 
 from collections import Counter
 from collections.abc import Callable
-from queue import Empty, SimpleQueue
-from time import monotonic
+from time import monotonic, sleep
 
 from plisse.errors import PlisseError
 from plisse.study.crew import Crew
@@ -28,23 +27,22 @@ def sweep(crew: Crew, store: Store, limits: Limits, *, forecast: bool = False, p
     waiting = store.waiting()[::-1]
     total, done, lost = len(waiting), 0, Counter[str]()
     start: float | None = None  # when the first design that is done was begun: workers take a while to start
-    running: dict[str, tuple] = {}  # future and recipe
-    ended: SimpleQueue[str] = SimpleQueue()
+    running: dict = {}
 
     def hand_out() -> None:
         while waiting and len(running) < crew.capacity:
             key, recipe = waiting.pop()
             store.begun(key)
             future = crew.client.submit(made, recipe, limits, forecast, pure=False, key=f"{key}-{total}-{lost[key]}")
-            running[key] = future, recipe
-            future.add_done_callback(lambda _, key=key: ended.put(key))
+            running[future] = key, recipe
 
     while waiting or running:
         crew.tend()
         hand_out()
-        for key in _taken(ended, wait=bool(running)):
-            future, recipe = running.pop(key)
+        for future in _finished(crew.client, list(running)):
+            key, recipe = running.pop(future)
             outcome = _outcome(future)
+            del future  # not later: Dask tells the scheduler, and what is said next waits for 10 ms
             lost[key] += outcome.status == DIED
             if outcome.status == DIED and lost[key] < ATTEMPTS:
                 waiting.append((key, recipe))
@@ -58,11 +56,17 @@ def sweep(crew: Crew, store: Store, limits: Limits, *, forecast: bool = False, p
             progress(crew.missing() or said, done / max(total, 1))
 
 
-def _taken(ended: SimpleQueue[str], wait: bool) -> list[str]:
-    """The next design that has ended, if there is one in a moment."""
+def _finished(client, futures: list) -> list:
+    """Those that are done; waits a moment for the first."""
+    from distributed import wait
+
+    if not futures:
+        sleep(NO_WORKER)
+        return []
     try:
-        return [ended.get(timeout=LOOK_EVERY if wait else NO_WORKER)]
-    except Empty:
+        with client.as_current():
+            return list(wait(futures, timeout=LOOK_EVERY, return_when="FIRST_COMPLETED").done)
+    except TimeoutError:
         return []
 
 
