@@ -7,7 +7,7 @@ from plisse.errors import InvalidStructure
 from plisse.structure.chains import boundary_loops
 from plisse.structure.cut import cut_along, uncut
 from plisse.structure.grid import grid
-from plisse.structure.topology import Polyline, Topology
+from plisse.structure.topology import Polyline, Topology, _sorted
 
 GRIDS = {
     "open": (grid(5, 7), 5 * 7, 4 * 6, 1),
@@ -230,3 +230,11 @@ def test_impossible_grids_are_refused(arguments, sentence):
 def test_indices_out_of_range_are_refused():
     with pytest.raises(InvalidStructure, match="face indices run from 0 to 4, but there are 4 vertices"):
         Topology(4, np.array([[0, 1, 2, 4]]))
+
+
+def test_keys_are_sorted_alike_where_their_places_do_not_fit_beside_them():
+    keys = np.array([7, 3, 7, 0, 3, 5])
+    for limit in (8, 2**62):
+        found, places = _sorted(keys, limit)
+        assert found.tolist() == [0, 3, 3, 5, 7, 7]
+        assert places.tolist() == [3, 1, 4, 5, 0, 2]

@@ -119,8 +119,6 @@ def _print_json(found: Study, files: list[Path]) -> None:
 
 def _summarise(found: Study) -> None:
     """Print the outcomes, the most frequent reasons of those that are not exact, and the files."""
-    from collections import Counter
-
     from rich.console import Console
     from rich.text import Text
 
@@ -129,11 +127,12 @@ def _summarise(found: Study) -> None:
     console = Console(highlight=False)
     outcomes = [Text(f"{count} {status}", STYLES.get(status, "bold")) for status, count in found.counts.items()]
     console.print(Text(f"{len(found.rows)} designs: ", "bold") + Text(", ").join(outcomes))
-    alike = Counter((row.status, _kind(row.reasons[0])) for row in found.rows if row.reasons)
-    example = {(row.status, _kind(row.reasons[0])): row.reasons[0] for row in found.rows[::-1] if row.reasons}
-    for (status, kind), count in alike.most_common(5):
-        of_what = f"{count} {status}" if count == 1 else f"{count} {status}, for example"
-        console.print(Text(f"· {of_what}: {example[status, kind]}"))
+    alike: dict[tuple[str, str], list[str]] = {}
+    for row in found.rows:
+        if row.reasons:
+            alike.setdefault((row.status, _kind(row.reasons[0])), []).append(row.reasons[0])
+    for (status, _), reasons in sorted(alike.items(), key=lambda entry: -len(entry[1]))[:5]:
+        console.print(Text(f"· {len(reasons)} {status}{', for example' * (len(reasons) > 1)}: {reasons[0]}"))
     if found.others:
         console.print(Text(f"· {found.others} designs of earlier studies are kept in the store, they are not counted"))
     for file in sorted(file for file in found.directory.iterdir() if file.is_file() and not file.name.startswith(".")):

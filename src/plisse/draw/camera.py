@@ -45,10 +45,9 @@ class Camera:
     def at(cls, azimuth: float, elevation: float) -> "Camera":
         """Camera at angles in radians: azimuth from the x axis around z, elevation above the xy plane."""
         level = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
-        upright = np.array([0.0, 0.0, 1.0])
-        towards = np.cos(elevation) * level + np.sin(elevation) * upright
-        up = np.cos(elevation) * upright - np.sin(elevation) * level
-        return cls(np.stack([np.cross(up, towards), up, towards]), upright)
+        towards = np.cos(elevation) * level + np.sin(elevation) * VERTICAL
+        up = np.cos(elevation) * VERTICAL - np.sin(elevation) * level
+        return cls(np.stack([np.cross(up, towards), up, towards]), VERTICAL)
 
 
 def best_view(structure: PleatedStructure, others: Sequence[PleatedStructure] = ()) -> Camera:

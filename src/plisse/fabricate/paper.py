@@ -9,6 +9,7 @@ from plisse.geometry.vectors import cross_flat
 from plisse.measure.folds import assignments
 from plisse.structure.chains import directed_loops
 from plisse.structure.front import front_up
+from plisse.structure.lines import edge_keys
 from plisse.structure.pleated import PleatedStructure
 from plisse.structure.topology import Topology
 
@@ -54,8 +55,7 @@ class Paper:
     def severed(self) -> np.ndarray:
         """Mask (E,) of boundary edges that belong together in the closed structure: the two sides of its cut."""
         edges = self.topology.edges
-        ends = self.source[edges.vertices]
-        key = ends.min(axis=1) * (self.source.max() + 1) + ends.max(axis=1)
+        key = edge_keys(self.source[edges.vertices], int(self.source.max()) + 1)
         _, group, count = np.unique(key, return_inverse=True, return_counts=True)
         return edges.is_boundary & (count[group] > 1)
 

@@ -27,15 +27,14 @@ class GridFit:
         self._equation = np.concatenate([np.repeat(start + np.arange(len(stencil)), stencil.shape[1])
                                          for start, stencil in zip(starts, stencils, strict=False)])
         self._unknown = np.concatenate([rank[stencil].ravel() for stencil in stencils])
-        self._pattern = GramPattern(self._unknown, self._equation, len(rank))
-        self._factoriser = factoriser(self._pattern)
+        self._factoriser = factoriser(GramPattern(self._unknown, self._equation, len(rank)))
 
     def solve(self, coefficients: Sequence[np.ndarray], residuals: Sequence[np.ndarray]) -> np.ndarray:
         """The function u (rows, columns) for coefficients (R, k) and residuals r (R,) of each stencil."""
         entries = np.concatenate([part.ravel() for part in coefficients])
         right = np.concatenate([part.ravel() for part in residuals])
         gradient = np.bincount(self._unknown, entries * right[self._equation], len(self._rank))
-        solution = self._factoriser.factor(self._pattern.assemble(entries)).solve(-gradient)
+        solution = self._factoriser.factor_product(entries, 0.0).solve(-gradient)
         return solution[self._rank].reshape(self._shape)
 
 

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 
+from plisse.structure.lines import edge_keys
 from plisse.structure.topology import Polyline, Topology
 
 __all__ = ["Cut", "cut_along", "cut_apart", "cut_open", "uncut"]
@@ -31,14 +32,14 @@ def uncut(topology: Topology) -> Cut:
 
 def cut_along(topology: Topology, *lines: Polyline) -> Cut:
     """The topology with both copies of every vertex inside the lines; faces and their order stay the same."""
-    key = _edge_keys(topology.edges.vertices, topology.vertex_count)
+    key = edge_keys(topology.edges.vertices, topology.vertex_count)
     return _severed(topology, np.isin(key, np.concatenate([_line_keys(line, topology.vertex_count) for line in lines])))
 
 
 def cut_apart(topology: Topology) -> Cut:
     """The topology parted along its seams, and every part cut open into a disk."""
-    edges = _edge_keys(topology.edges.vertices, topology.vertex_count)
-    parted = _severed(topology, np.isin(edges, _edge_keys(topology.seams, topology.vertex_count)))
+    edges = edge_keys(topology.edges.vertices, topology.vertex_count)
+    parted = _severed(topology, np.isin(edges, edge_keys(topology.seams, topology.vertex_count)))
     opened = cut_open(parted.topology)
     return Cut(opened.topology, parted.source[opened.source])
 
@@ -102,8 +103,4 @@ def _relabel(topology: Topology, near: np.ndarray, label: np.ndarray) -> Cut:
 
 def _line_keys(line: Polyline, vertex_count: int) -> np.ndarray:
     vertices = line.path
-    return _edge_keys(np.stack([vertices[:-1], vertices[1:]], axis=1), vertex_count)
-
-
-def _edge_keys(ends: np.ndarray, vertex_count: int) -> np.ndarray:
-    return np.minimum(ends[:, 0], ends[:, 1]) * np.int64(vertex_count) + np.maximum(ends[:, 0], ends[:, 1])
+    return edge_keys(np.stack([vertices[:-1], vertices[1:]], axis=1), vertex_count)

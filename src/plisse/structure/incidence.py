@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order
 
+from plisse.structure.lines import edge_keys
 from plisse.structure.topology import Topology
 
 __all__ = ["corner_means", "edge_lookup", "edges_of_corners", "loop_edges", "tree_edges"]
@@ -13,12 +14,12 @@ __all__ = ["corner_means", "edge_lookup", "edges_of_corners", "loop_edges", "tre
 
 def edge_lookup(topology: Topology) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
     """A function that takes both ends of edges, in any order, to their numbers."""
-    ends, count = topology.edges.vertices, np.int64(topology.vertex_count)
-    key = ends.min(axis=1) * count + ends.max(axis=1)
+    count = topology.vertex_count
+    key = edge_keys(topology.edges.vertices, count)
     order = np.argsort(key)
 
     def edge(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        return order[np.searchsorted(key[order], np.minimum(a, b) * count + np.maximum(a, b))]
+        return order[np.searchsorted(key[order], edge_keys(np.stack([a, b], axis=-1), count))]
 
     return edge
 

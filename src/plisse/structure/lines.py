@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-__all__ = ["Polyline", "joined"]
+__all__ = ["Polyline", "edge_keys", "joined"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,6 +20,11 @@ class Polyline:
     def path(self) -> np.ndarray:
         """The vertices, with the first one again at the end of closed chains."""
         return np.append(self.vertices, self.vertices[0]) if self.closed else self.vertices
+
+
+def edge_keys(ends: np.ndarray, vertex_count: int) -> np.ndarray:
+    """A number (…) for every edge (…, 2), the same in both directions."""
+    return np.minimum(ends[..., 0], ends[..., 1]) * np.int64(vertex_count) + np.maximum(ends[..., 0], ends[..., 1])
 
 
 def joined(ends: np.ndarray) -> tuple[Polyline, ...]:

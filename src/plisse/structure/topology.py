@@ -12,7 +12,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from plisse.errors import InvalidStructure
-from plisse.structure.lines import Polyline, joined
+from plisse.structure.lines import Polyline, edge_keys, joined
 
 __all__ = ["Corners", "Edges", "Polyline", "Topology"]
 
@@ -184,12 +184,19 @@ class Edges:
         return self.faces[:, 1] < 0
 
 
+def _sorted(key: np.ndarray, limit: int) -> tuple[np.ndarray, np.ndarray]:
+    """Keys (N,) from 0 up to a limit in order, and the places where they were, those of equal ones in order too."""
+    count = len(key)
+    if limit * count < 2**63:  # keys that hold their places are sorted several times as fast as one can ask for the order
+        return np.divmod(np.sort(key * count + np.arange(count)), count)
+    order = np.argsort(key, kind="stable")
+    return key[order], order
+
+
 def _edges(topology: Topology) -> Edges:
     corners = topology.corners
     ends = np.stack([corners.vertex, corners.next], axis=1)
-    key = np.minimum(corners.vertex, corners.next) * topology.vertex_count + np.maximum(corners.vertex, corners.next)
-    # to sort keys with their places in them is several times as fast as to ask for the order
-    key, order = np.divmod(np.sort(key * np.int64(len(key)) + np.arange(len(key))), len(key))
+    key, order = _sorted(edge_keys(ends, topology.vertex_count), topology.vertex_count**2)
     starts = np.flatnonzero(np.r_[True, key[1:] != key[:-1]])
     counts = np.diff(np.r_[starts, len(order)])
     if counts.max() > 2:

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from plisse.draw.camera import Camera
 from plisse.geometry.vectors import norm
 
-__all__ = ["FIELD_OF_VIEW", "SEEN", "TINY", "Manner", "SheetPlace", "Stand", "Window", "beside", "is_narrow"]
+__all__ = ["FIELD_OF_VIEW", "SEEN", "TINY", "Manner", "SheetPlace", "Stand", "Window", "beside", "is_narrow", "seen_by"]
 
 FIELD_OF_VIEW = np.radians(30)
 FILLED = 0.9  # of the window
@@ -30,6 +30,11 @@ class Stand:
     def distance(self) -> float:
         """From the camera to what it looks at."""
         return float(norm(self.position - self.middle))
+
+
+def seen_by(camera) -> Camera:
+    """The view that a client's camera has."""
+    return Camera.looking_from(camera.position - camera.look_at, camera.up_direction)
 
 
 def is_narrow(camera) -> bool:
@@ -75,7 +80,7 @@ class Window:
 
     def _places(self, points: np.ndarray, camera) -> np.ndarray | None:
         """Places (N, 2) in the window, −1 to 1 from rim to rim; None where some are behind the camera."""
-        seen = (points - camera.position) @ Camera.looking_from(camera.position - camera.look_at, camera.up_direction).axes.T
+        seen = seen_by(camera).project(points - camera.position)
         return None if seen[:, 2].max() >= 0 else seen[:, :2] / -seen[:, 2:] / self.slopes
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from plisse.draw import colours
 from plisse.recipe import Points, Recipe, Spline
+from plisse.studio.paper import ink_bytes
 
 if TYPE_CHECKING:
     from viser import ClientHandle
@@ -78,7 +79,7 @@ class Handles:
     def _make(self, points: np.ndarray, size: float) -> None:
         for ball in self._balls:
             ball.remove()
-        ink = tuple(np.round(255 * colours.rgb(colours.INK)).astype(int).tolist())
+        ink = ink_bytes(colours.INK)
         self._balls = []
         for k, point in enumerate(points):
             ball = self._client.scene.add_icosphere(f"/points/{k}", 0.02 * size, ink, position=point, cast_shadow=False)

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from plisse.draw import colours
-from plisse.draw.camera import Camera
 from plisse.draw.colour_maps import NAMES
 from plisse.draw.dashes import SHARE
+from plisse.studio.framing import seen_by
 from plisse.studio.view import Tint
 
 if TYPE_CHECKING:
@@ -111,8 +111,7 @@ class LookPanel:
     def manner(self) -> dict[str, Any]:
         """How what is taken away is made, as `downloads.Order` has it: as it is seen."""
         camera = self._tab.client.camera
-        seen = Camera.looking_from(camera.position - camera.look_at, camera.up_direction)
-        return {"length": float(self._length.value), "camera": seen, "colour": self._tab.colour,
+        return {"length": float(self._length.value), "camera": seen_by(camera), "colour": self._tab.colour,
                 "percent": self._tab.percent, "solid": self._tab.solid[0]}
 
     def fit(self, size: float) -> None:

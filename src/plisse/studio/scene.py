@@ -10,7 +10,7 @@ import numpy as np
 
 from plisse.draw import colours
 from plisse.draw.camera import Camera
-from plisse.studio.framing import FIELD_OF_VIEW, SEEN, TINY, Manner, SheetPlace, Stand, Window, beside
+from plisse.studio.framing import FIELD_OF_VIEW, SEEN, TINY, Manner, SheetPlace, Stand, Window, beside, seen_by
 from plisse.studio.paper import Paper, Shown, ink_bytes
 from plisse.studio.requests import Found
 from plisse.studio.shading import Grooves, light, textured
@@ -153,7 +153,7 @@ class Scene:
                        for before, now in zip(known, self._known, strict=True))
         before, now = (window.share(structure, camera) for structure, _ in (known, self._known))
         if has_left or now < TINY <= before:
-            self._stand(Camera.looking_from(camera.position - camera.look_at, camera.up_direction))
+            self._stand(seen_by(camera))
 
     async def _resized(self, camera) -> None:
         """Fill a window whose shape has changed, unless somebody has moved the camera."""
@@ -162,18 +162,18 @@ class Scene:
             return
         if np.allclose(camera.position, stood.position, atol=1e-3 * stood.distance):
             self._lay_sheet()
-            self._stand(Camera.looking_from(camera.position - camera.look_at, camera.up_direction))
+            self._stand(seen_by(camera))
 
     def _stand(self, view: Camera) -> None:
         """Put the camera where everything fills the window as seen in a direction, if there is anything."""
-        camera, points = self._client.camera, self._everything
-        if not len(points):
+        camera, known = self._client.camera, self._in_view
+        if not len(known[1]):
             return
-        stand = Window.of(camera).stand(points, view.axes)
+        stand = Window.of(camera).stand(known[1], view.axes)
         self._stood, self._aspect = stand, camera.aspect
         camera.near, camera.far = 0.002 * stand.distance, 50 * stand.distance
         camera.position, camera.look_at, camera.up_direction = stand.position, stand.middle, view.upright
-        self._known = self._in_view
+        self._known = known
 
     @property
     def _in_view(self) -> tuple[np.ndarray, np.ndarray]:

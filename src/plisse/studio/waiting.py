@@ -35,9 +35,8 @@ class Waiting:
     """The solve that was asked for last; `say` is called in the event loop when nothing comes of it for a while."""
 
     def __init__(self, loop: asyncio.AbstractEventLoop, say: Callable[[], None]):
-        self._loop, self._say = loop, say
+        self._late, self._say = Later(loop, LATE), say
         self._asked: Solve | None = None
-        self._timer: asyncio.TimerHandle | None = None
         self.is_late = False
 
     @property
@@ -47,23 +46,22 @@ class Waiting:
 
     def begin(self, request: Solve) -> None:
         """Wait for a solve, instead of those before."""
-        self._asked = request
-        if self._timer is None:
-            self._timer = self._loop.call_later(LATE, self._grow_late)
+        is_first, self._asked = self.is_over, request
+        if is_first:
+            self._late.begin(self._grow_late)
 
     def end(self, request: Solve) -> None:
         """Stop waiting for a solve, and go on waiting where a newer one was asked for."""
         self.cancel()
-        self._timer, self.is_late = None, False
+        self.is_late = False
         if request is self._asked:
             self._asked = None
         elif self._asked is not None:
-            self._timer = self._loop.call_later(LATE, self._grow_late)
+            self._late.begin(self._grow_late)
 
     def cancel(self) -> None:
         """Say nothing any more."""
-        if self._timer is not None:
-            self._timer.cancel()
+        self._late.cancel()
 
     def _grow_late(self) -> None:
         self.is_late = True
