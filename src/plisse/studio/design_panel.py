@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from plisse.studio.fields import Field, fields_of
 from plisse.studio.series import fitted
+from plisse.studio.waiting import put_away
 from plisse.studio.words import TITLES
 
 if TYPE_CHECKING:
@@ -72,8 +73,7 @@ class DesignPanel:
         slider.min, slider.max, slider.step = whole(field.low), whole(field.high), whole(field.step)  # type: ignore
 
     def _build(self, fields: list[Field]) -> None:
-        for folder in self._folders:
-            folder.remove()
+        put_away(self._folders)
         self._folders, self._controls = [], {}
         sections = list(dict.fromkeys(field.section for field in fields))
         with self._place:

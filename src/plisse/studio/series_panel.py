@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from plisse.studio.fields import list_text, value_of_text
 from plisse.studio.series import ALONG, EACH, SAME, SERIES, Series, series_of, with_place_after, without_place
+from plisse.studio.waiting import put_away
 
 if TYPE_CHECKING:
     from plisse.studio.tab import Tab
@@ -48,8 +49,7 @@ class SeriesPanel:
             self._fill_place(series)
 
     def _build(self, series: Series) -> None:
-        for control in self._controls:
-            control.remove()
+        put_away(self._controls)
         self._controls, gui = [], self._tab.client.gui
         self._rows.visible = series.kind != SAME
         if series.kind == SAME:

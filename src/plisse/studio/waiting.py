@@ -1,15 +1,17 @@
-"""What is waited for: the newest solve, when it is late, and a while without changes."""
+"""What is waited for: the newest solve, when it is late, a while without changes, and the end of controls."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from typing import Any
 
 from plisse.studio.requests import Solve
 
-__all__ = ["Later", "Waiting"]
+__all__ = ["Later", "Waiting", "put_away"]
 
 LATE = 0.4  # seconds after which a solve is said to be under way
+READ = 5.0  # seconds after which a browser has read what was said of a control
 
 
 class Later:
@@ -66,3 +68,18 @@ class Waiting:
     def _grow_late(self) -> None:
         self.is_late = True
         self._say()
+
+
+def put_away(controls: Iterable[Any]) -> None:
+    """Hide controls of the page, and remove them later.
+
+    A browser reads what was said of a control after its removal, where both come in one frame, and complains.
+    """
+    for control in controls:
+        control.visible = False
+        asyncio.get_running_loop().call_later(READ, _remove, control)
+
+
+def _remove(control: Any) -> None:
+    if not control._impl.removed:  # as all are when the tab is closed
+        control.remove()

@@ -133,6 +133,19 @@ def test_inclinations_and_widths_are_set_one_by_one_and_along_the_curve(visitor)
     visitor.wait_for("exact")
 
 
+def test_a_busy_browser_may_read_of_a_control_and_of_its_end_in_one_frame(visitor):
+    tab = visitor.tab_behind
+    visitor.fold_out("Width of single strips")
+    visitor.choose("width is", "one by one")
+    visitor.page.get_by_role("slider", name="width, strip 6 (mm)", exact=True).wait_for()
+    visitor.page.evaluate("setTimeout(() => { const end = Date.now() + 2000; while (Date.now() < end); }, 0)")
+    for changes in ({"pattern.width": [5, 6, 5, 5, 5, 5]}, {"pattern.creases": 5, "pattern.width": [5, 6, 5, 5]}):
+        tab._loop.call_soon_threadsafe(tab.change, changes)
+        time.sleep(0.5)
+    visitor.page.get_by_role("slider", name="width, strip 6 (mm)", exact=True).wait_for(state="hidden")
+    assert visitor.number("width, strip 2 (mm)") == 6
+
+
 def test_a_design_of_the_gallery_is_picked_by_its_picture_and_painted(visitor):
     tab = visitor.tab_behind
     visitor.button("Gallery …")

@@ -31,8 +31,8 @@ class Visitor:
         self.tab_behind = next(studio.tabs[number] for number in studio.tabs if number not in known)
 
     def leave(self):
-        assert self.errors == []
-        assert self.foreign == []
+        assert self.errors == [], self.errors
+        assert self.foreign == [], self.foreign
         self.page.close()
 
     def _note(self, url, port):
