@@ -1,12 +1,14 @@
 """Designs handed out to workers, and outcomes taken in, until none is left."""
 
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Callable
-from time import monotonic, sleep
+from time import monotonic
+
+from msgspec.structs import replace
 
 from plisse.errors import PlisseError
+from plisse.study.batch import Batch, Post, how_many
 from plisse.study.crew import Crew
-from plisse.study.isolated import made
 from plisse.study.outcome import DIED, Outcome
 from plisse.study.plan import Limits
 from plisse.study.store import Store
@@ -14,6 +16,7 @@ from plisse.study.store import Store
 __all__ = ["sweep"]
 
 ATTEMPTS = 3
+RECENT = 8  # designs whose seconds say how long the next ones may take
 LOOK_EVERY, NO_WORKER = 0.5, 0.05  # seconds between looks at what happens besides
 
 Progress = Callable[[str, float], None]
@@ -24,64 +27,86 @@ def sweep(crew: Crew, store: Store, limits: Limits, *, forecast: bool = False, p
 
     A design whose worker dies is tried again, three times in all. Raises PlisseError where workers have no plisse.
     """
-    waiting = store.waiting()[::-1]
-    total, done, lost = len(waiting), 0, Counter[str]()
-    start: float | None = None  # when the first design that is done was begun: workers take a while to start
-    running: dict = {}
-
-    def hand_out() -> None:
-        while waiting and len(running) < crew.capacity:
-            key, recipe = waiting.pop()
-            store.begun(key)
-            future = crew.client.submit(made, recipe, limits, forecast, pure=False, key=f"{key}-{total}-{lost[key]}")
-            running[future] = key, recipe
-
-    while waiting or running:
+    post = Post(crew.client, limits, forecast)
+    work = _Work(crew, store, post)
+    while not work.is_over:
         crew.tend()
-        hand_out()
-        for future in _finished(crew.client, list(running)):
-            key, recipe = running.pop(future)
-            outcome = _outcome(future)
-            del future  # not later: Dask tells the scheduler, and what is said next waits for 10 ms
-            lost[key] += outcome.status == DIED
-            if outcome.status == DIED and lost[key] < ATTEMPTS:
-                waiting.append((key, recipe))
-                continue
-            hand_out()  # nobody shall wait for the disk
-            store.done(key, _given_up(outcome) if outcome.status == DIED else outcome)
-            done += 1
-            start = start or monotonic() - outcome.seconds
+        work.hand_out()
+        ended = [batch for batch in work.batches if batch.future.done()]  # now: all their outcomes have come
+        patience = 0.0 if ended else LOOK_EVERY if work.batches else NO_WORKER
+        for key, outcome in post.outcomes(patience):
+            work.take_in(key, outcome)
+        for batch in ended:
+            work.end(batch)
         if progress:
-            said = _said(done, total, 0.0 if start is None else monotonic() - start)
-            progress(crew.missing() or said, done / max(total, 1))
+            progress(crew.missing() or work.said, work.done / max(work.total, 1))
 
 
-def _finished(client, futures: list) -> list:
-    """Those that are done; waits a moment for the first."""
-    from distributed import wait
+class _Work:
+    """Designs that wait, batches at the workers, and how far it is."""
 
-    if not futures:
-        sleep(NO_WORKER)
-        return []
-    try:
-        with client.as_current():
-            return list(wait(futures, timeout=LOOK_EVERY, return_when="FIRST_COMPLETED").done)
-    except TimeoutError:
-        return []
+    def __init__(self, crew: Crew, store: Store, post: Post):
+        self._crew, self._store, self._post = crew, store, post
+        self._waiting = store.waiting()[::-1]
+        self.total, self.done = len(self._waiting), 0
+        self.batches: list[Batch] = []
+        self._lost, self._recent = Counter[str](), deque[float](maxlen=RECENT)
+        self._start: float | None = None  # when the first design that is done was begun: workers take a while to start
+
+    @property
+    def is_over(self) -> bool:
+        return not self._waiting and not self.batches
+
+    @property
+    def said(self) -> str:
+        return _said(self.done, self.total, 0.0 if self._start is None else monotonic() - self._start)
+
+    def hand_out(self) -> None:
+        """Give every worker that is free a batch."""
+        while self._waiting and sum(not batch.future.done() for batch in self.batches) < self._crew.capacity:
+            count = how_many(self._recent, len(self._waiting), self._crew.capacity)
+            self.batches.append(self._post.send([self._waiting.pop() for _ in range(count)]))
+            self._begin(self.batches[-1])
+
+    def take_in(self, key: str, outcome: Outcome) -> None:
+        """Keep an outcome, or let its design wait for another attempt."""
+        batch = next((batch for batch in self.batches if key in batch.left), None)
+        if batch is None:
+            return  # of a worker that was given up
+        recipe = batch.left.pop(key)
+        self._lost[key] += outcome.status == DIED
+        if outcome.status == DIED and self._lost[key] < ATTEMPTS:
+            self._waiting.append((key, recipe))
+        else:
+            self._store.done(key, _given_up(outcome) if outcome.status == DIED else outcome)
+            self._recent.append(outcome.seconds)
+            self._start = self._start or monotonic() - outcome.seconds
+            self.done += 1
+        self._begin(batch)
+
+    def end(self, batch: Batch) -> None:
+        """Let what a batch leaves behind wait again; the design that was under way has had an attempt."""
+        if batch.left:
+            first, *rest = batch.left.items()
+            self._waiting += rest[::-1]
+            batch.left = dict([first])
+            self.take_in(first[0], Outcome(status=DIED, reasons=[_loss(batch.future)]))
+        self.batches.remove(batch)
+
+    def _begin(self, batch: Batch) -> None:
+        if batch.left:
+            self._store.begun(next(iter(batch.left)))
 
 
-def _outcome(future) -> Outcome:
-    if future.status == "finished":
-        return future.result()
+def _loss(future) -> str:
+    """Why a batch has ended before its last outcome."""
     error = future.exception() if future.status == "error" else None
     if isinstance(error, ModuleNotFoundError):
         raise PlisseError(f"a worker has no {error.name}; install plisse[sweep] where the workers run")
-    return Outcome(status=DIED, reasons=[f"its worker was lost ({type(error).__name__ if error else future.status})"])
+    return f"its worker was lost ({type(error).__name__ if error else future.status})"
 
 
 def _given_up(outcome: Outcome) -> Outcome:
-    from msgspec.structs import replace
-
     return replace(outcome, status="failed", reasons=[f"{reason}, {ATTEMPTS} times in a row" for reason in outcome.reasons])
 
 
