@@ -24,6 +24,7 @@ from systems import System, one_factorisation
 TITLE = "Exact against SciPy's least_squares"
 TARGET = 1e-12
 PATIENCE = 15.0  # processor seconds
+BESIDE = 5  # solves beside each run of SciPy, of which the median counts: the smallest take milliseconds
 NEAR = 1e-3  # how far vertices are moved from an exact structure, in edges
 TIGHT = {"atol": 1e-10, "btol": 1e-10, "maxiter": 5000, "regularize": False}
 SETTINGS = {"lsmr": {"tr_solver": "lsmr"},
@@ -49,8 +50,9 @@ def _case(name: str, design: Design, settings: dict) -> dict:
     staged(design)  # imports
     runs, exact = [], []
     for setting, options in settings.items():
-        result, spans = staged(design)
-        exact.append((result, spans["solve"]))
+        few = [staged(design) for _ in range(BESIDE)]
+        result = few[0][0]
+        exact += [(result, spans["solve"]) for result, spans in few]
         system = System(result.zigzagged, design.solve.principal)
         runs.append({"setting": setting, **_scipy(system, result.structure.topology, options)})
     result, clocks = sorted(exact, key=lambda run: run[1]["cpu"])[len(exact) // 2]
@@ -123,9 +125,10 @@ def lines(found: dict) -> list[str]:
     out = ["The conditions (planarity, angle sums, flat-foldability where principal) as residuals of the 3V coordinates, "
            "with their analytic sparse Jacobian, from the zigzag. `method=\"trf\"`, tolerances at round-off; SciPy's clock "
            f"stops when the largest residual falls below {found['target']:.0e}, at the latest after {found['patience']:.0f} "
-           "s; its sparsity pattern is built before. `exact` is charged with its whole solve, patterns included. *Near* "
-           "starts from an exact structure whose vertices were moved by a thousandth of an edge: one polish against SciPy. "
-           "The dense trust region (`tr_solver=\"exact\"`) is for small designs only.", "",
+           "s; its sparsity pattern is built before. `exact` is charged with its whole solve, patterns included; the median "
+           "of several beside each run counts. *Near* starts from an exact structure whose vertices were moved by a "
+           "thousandth of an edge: one polish against SciPy. The dense trust region (`tr_solver=\"exact\"`) is for "
+           "small designs only.", "",
            "| design | conditions × unknowns | solver | s | largest residual | evaluations | sector | / exact |",
            "|---|---|---|--:|--:|--:|--:|--:|"]
     for case in found["cases"]:
