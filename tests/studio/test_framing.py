@@ -11,7 +11,7 @@ import plisse
 from plisse.draw.camera import Camera, best_view
 from plisse.io.designs import read_design
 from plisse.shipped import shipped_design
-from plisse.studio.framing import BAR, FIELD_OF_VIEW, FILLED, Manner, Window, beside
+from plisse.studio.framing import BAR, FIELD_OF_VIEW, FILLED, TINY, Manner, Window, beside
 from plisse.studio.requests import Found
 from plisse.studio.scene import Scene
 from plisse.studio.view import flat_view, folded_view, posed_view
@@ -98,7 +98,7 @@ def found():
 
 def test_the_best_view_of_nothing_is_where_one_is():
     cards = Cards()
-    scene, place = Scene(cards), cards.camera.position
+    scene, place = Scene(cards, None), cards.camera.position
     scene.frame()
     scene.pale()
     assert cards.camera.position is place
@@ -109,7 +109,7 @@ def test_the_best_view_of_nothing_is_where_one_is():
 def test_a_structure_that_folds_up_is_seen_again_from_near_although_its_sheet_was_always_large(found):
     structure, found = found
     cards = Cards()
-    scene, motion = Scene(cards), structure.flex(100)
+    scene, motion = Scene(cards, None), structure.flex(100)
     scene.show(found)
     scene.frame()
 
@@ -124,6 +124,31 @@ def test_a_structure_that_folds_up_is_seen_again_from_near_although_its_sheet_wa
     far = share()
     scene.follow()
     assert share() == far
+
+
+@pytest.mark.parametrize("percent", [150, 190, 196])
+@pytest.mark.parametrize("aspect", [0.5, 1.0, 1.5])
+def test_the_best_view_of_a_structure_that_is_folded_up_is_not_filled_by_its_sheet(found, percent, aspect):
+    structure, found = found
+    cards = Cards(aspect)
+    scene, window = Scene(cards, None), Window(aspect)
+    scene.show(found)
+    scene.frame()
+    assert window.reach(scene._everything, cards.camera) < 1  # as it was designed all is seen
+    scene.pose(replace(posed_view(structure.flex(100), percent), sky=None))
+    scene.frame()
+    assert window.share(scene.points, cards.camera) > 0.6 * TINY  # not quite: from farther away what is deep is smaller
+    assert window.reach(scene.points, cards.camera) < 1
+
+
+def test_on_the_way_to_a_nearer_camera_what_it_sees_stays_in_the_window():
+    window, small = Window(1.3), 0.2 * CLOUD + 40 * VIEW.axes[0]
+    far, near = (window.stand(points, VIEW.axes) for points in (np.concatenate([CLOUD, small]), small))
+    for part in (0.2, 0.5, 0.8):
+        between = far.nearer(near, (1 - part) * far.distance + part * near.distance)
+        assert window.reach(small, camera_at(between, VIEW, window)) <= FILLED + 1e-9
+        assert between.distance == pytest.approx((1 - part) * far.distance + part * near.distance)
+    assert far.nearer(near, 2 * far.distance) is far
 
 
 @pytest.mark.parametrize("below", [False, True])

@@ -1,11 +1,13 @@
 """Visitors who come and go, and send what nobody should: the server says nothing, keeps nothing and goes on."""
 
 import gc
+import itertools
 import signal
 import subprocess
 import sys
 import time
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -27,6 +29,7 @@ WAVE = design_from_dict({"curve": {"kind": "spline", "points": [[0, 0, 0], [40, 
 PATTERN = "[pattern]\ncreases = 5\nwidth = 5\namplitude = 3\n"
 SADDLE = "[surface]\nheight = '0.0008*x*x - 0.0006*y*y'\nx = [-60, 60]\ny = [-40, 40]\n"
 CAMERA = messages.ViewerCameraMessage((1, 0, 0, 0), (0, 0, 100), 1.0, 0.1, 1e4, 600, 800, (0, 0, 0), (0, 1, 0))
+HEIGHTS = itertools.count(CAMERA.image_height + 1)
 
 
 @pytest.fixture(scope="module")
@@ -53,12 +56,16 @@ def studio(running, capfd, caplog):
 
 @contextmanager
 def visit(studio):
-    """Somebody's connection, once the tab behind it is there."""
-    known = set(studio.tabs)
+    """Somebody's connection, and the tab behind it: that whose window is as high as no other one."""
+    height = next(HEIGHTS)
+
+    def own():
+        return next((tab for tab in list(studio.tabs.values()) if tab.client.camera.image_height == height), None)
+
     with knock(studio.port) as connection:
-        send(connection, CAMERA)
-        until(lambda: set(studio.tabs) - known)
-        yield connection, studio.tabs[max(set(studio.tabs) - known)]
+        send(connection, replace(CAMERA, image_height=height))
+        until(own)
+        yield connection, own()
 
 
 def knock(port):

@@ -11,12 +11,13 @@ from plisse.studio.child import Answer, Failure, Stage
 
 pytest.importorskip("viser", reason="viser is not installed: pip install plisse[studio]")
 
+from plisse.studio.dress import Dress
 from plisse.studio.model import Desk
-from plisse.studio.pace import Pace
 from plisse.studio.requests import Found, Solve
-from plisse.studio.tab import LONGER, REST, Tab
+from plisse.studio.solving import REST, Solving
+from plisse.studio.tab import LONGER, Tab
 from plisse.studio.view import folded_view
-from plisse.studio.waiting import LATE, Later, Waiting
+from plisse.studio.waiting import LATE, Later
 
 RESULT = plisse.design({"closed_form": {"kind": "cones", "creases": 4, "samples": 11}})
 SOUND = Found(RESULT.report, False, folded=folded_view(RESULT.structure))
@@ -64,11 +65,10 @@ class Clock:
 def tab():
     tab, clock = Tab.__new__(Tab), Clock()
     tab.panels, tab.scene, tab.handles, tab._hands, tab.errands = (Recorder() for _ in range(5))
-    tab.desk, tab._pace, tab.clock = Desk(RESULT.design, "cones"), Pace(), clock
-    tab.found, tab.free, tab.colour, tab.solid, tab.percent = SOUND, None, "", ("", 0.0), 100.0
-    tab._asked, tab._held = None, (tab.percent, tab.solid)
+    tab.desk, tab.clock = Desk(RESULT.design, "cones"), clock
+    tab.found, tab.free, tab.dress = SOUND, None, Dress(tab.scene, tab.ask, tab.panels.show_scale)
     tab.is_open, tab._framed, tab._refusal = True, True, ""
-    tab._rest, tab._longer, tab._waiting = Later(clock, REST), Later(clock, LONGER), Waiting(clock, tab._say_late)
+    tab._solving, tab._longer = Solving(clock, tab.ask, tab._say_late), Later(clock, LONGER)
     yield tab
     tab.desk.close()
 
@@ -87,9 +87,9 @@ def test_what_was_there_before_a_breakdown_stays_pale(tab):
 
 
 def test_a_long_solve_is_said_to_be_under_way_even_after_a_fast_one(tab):
-    tab._pace.learn(SOUND, 0.01)
+    tab._solving._pace.learn(SOUND, 0.01)
     solve = Solve(RESULT.design)
-    tab._ask_solve(solve)
+    tab._solving.ask(solve)
     tab._receive(solve, Stage(1, "solve", 0.2))
     assert tab.panels.said == []
     tab.clock.pass_by(LATE)
@@ -98,11 +98,11 @@ def test_a_long_solve_is_said_to_be_under_way_even_after_a_fast_one(tab):
     assert len(tab.panels.said) == 2
     tab._receive(solve, Answer(1, SOUND, 0.6))
     assert "exact" in tab.panels.said[-1]
-    assert tab._waiting.is_over
+    assert tab._solving.is_over
 
 
 def test_a_change_that_waits_for_rest_is_solved_although_an_older_answer_comes_between(tab):
-    tab._pace.waits = lambda _recipe: True
+    tab._solving._pace.waits = lambda _recipe: True
     before = tab.desk.recipe
     tab.change({"closed_form.creases": 6})
     assert tab._hands.asked == []
@@ -114,7 +114,7 @@ def test_a_change_that_waits_for_rest_is_solved_although_an_older_answer_comes_b
 
 
 def test_what_takes_longer_waits_beside_the_full_answer_and_both_end_with_a_newer_solve(tab):
-    tab._pace.waits = lambda _recipe: True
+    tab._solving._pace.waits = lambda _recipe: True
     tab._receive(Solve(tab.desk.recipe), Answer(1, found_of(tab.desk.recipe, principal=True), 0.01))
     assert [timer.seconds for timer in tab.clock.waiting] == [LONGER]
     for creases in (6, 8):
@@ -141,7 +141,7 @@ def test_a_pose_that_is_refused_goes_back_to_that_on_screen(tab, held):
     tab.pose(201.0)
     tab.panels.called.clear()
     tab._receive(tab._hands.asked[-1], Failure(2, "there is no such state"))
-    assert tab.percent == held
+    assert tab.dress.chosen.percent == held
     assert "not done" in tab.panels.said[-1]
     assert "refresh" in tab.panels.called
 
@@ -151,11 +151,11 @@ def test_a_thickness_that_is_refused_is_not_asked_for_again(tab):
     tab._receive(tab._hands.asked[-1], Answer(1, SOUND.folded, 0.01))
     tab.solidify("plates", 1000.0)
     tab._receive(tab._hands.asked[-1], Failure(2, "plates this thick do not exist"))
-    assert tab.solid == ("plates", 1.0)
+    assert tab.dress.chosen.solid == ("plates", 1.0)
     tab._receive(Solve(tab.desk.recipe), Answer(3, SOUND, 0.01))
     assert tab._hands.asked[-1].length == 1.0
     tab._receive(tab._hands.asked[-1], Failure(4, "plates this thick do not exist"))
-    assert tab.solid == ("", 0.0)
+    assert tab.dress.chosen.solid == ("", 0.0)
 
 
 def test_the_camera_stays_when_a_text_is_refused_and_moves_for_another_design(tab):
@@ -174,3 +174,16 @@ def test_nothing_is_said_to_be_pale_where_nothing_was(tab):
     tab._receive(Solve(tab.desk.recipe), Failure(1, "it breaks down"))
     assert "it breaks down" in said[-1]
     assert "Pale" not in said[-1]
+
+
+def test_what_was_refused_before_a_note_at_a_box_does_not_come_back_when_a_solve_ends(tab):
+    tab._solving._pace.waits = lambda _recipe: True
+    tab.change({"closed_form.creases": 6})
+    tab.clock.pass_by(REST)
+    tab.change({"closed_form.creases": -6})
+    assert "not done" in tab.panels.said[-1]
+    tab.clock.pass_by(LATE)
+    tab.forget_refusal()
+    assert "working" in tab.panels.said[-1]
+    tab._receive(tab._hands.asked[-1], Answer(1, found_of(tab.desk.recipe), 0.6))
+    assert "exact" in tab.panels.said[-1]

@@ -72,12 +72,7 @@ def _check_marched(design: Design, march: March) -> Design:
     if design.solve.cut is not None and not design.curve.closed:
         raise InvalidDesign("solve.cut is set, but the curve is open and needs no cut; remove it or set curve.closed")
     _check_curve(design.curve)
-    lengths = np.array(march.distance, dtype=float)
-    lengths, size = lengths[:, 1] if lengths.ndim == 2 else np.atleast_1d(lengths), _size(design.curve)
-    for value in (lengths.min(), lengths.max()):
-        if not size / LARGEST_RATIO < value < size * 10:
-            raise InvalidDesign(f"march.distance is {value:g}, but the curve measures {size:.3g} model units; give lengths "
-                                "of one scale")
+    _check_lengths("march.distance", march.distance, _size(design.curve))
     return design
 
 
@@ -100,16 +95,28 @@ def _check_pattern(pattern: Pattern) -> None:
 
 def _check_scale(size: float, pattern: Pattern) -> None:
     """Refuse lengths so different that they belong to different units."""
-    widths = np.array(pattern.width, dtype=float)
-    widths = widths[:, 1] if widths.ndim == 2 else np.atleast_1d(widths)
-    for name, value in (("pattern.width", widths.max()), ("pattern.width", widths.min()),
-                        ("pattern.amplitude", pattern.amplitude)):
-        if not size / LARGEST_RATIO < value < size * 10:
-            raise InvalidDesign(f"{name} is {value:g}, but the curve measures {size:.3g} model units; "
-                                "give lengths of one scale")
+    _check_lengths("pattern.width", pattern.width, size)
+    _check_lengths("pattern.amplitude", pattern.amplitude, size)
+    widths = _lengths(pattern.width)
     if not 1 / LARGEST_RATIO < pattern.amplitude / widths.min() < LARGEST_RATIO:
         raise InvalidDesign(f"pattern.amplitude is {pattern.amplitude:g} and pattern.width {widths.min():g}; "
                             "give an amplitude of about half the width")
+
+
+def _check_lengths(name: str, value: float | list, size: float) -> None:
+    """Refuse a length, or a list or profile of lengths, of another scale than the curve."""
+    least, most = size / LARGEST_RATIO, 10 * size
+    for k, length in enumerate(_lengths(value)):
+        if not least < length < most:
+            place = f"{name}[{k}]" if isinstance(value, list) else name
+            raise InvalidDesign(f"{place} is {length:g}, but the curve measures {size:.3g} model units; give a length "
+                                f"between {least:.4g} and {most:.4g}, or the curve in the same units")
+
+
+def _lengths(value: float | list) -> np.ndarray:
+    """The lengths (N,) in one length, a list of them, or a profile [[position, length], …]."""
+    lengths = np.array(value, dtype=float)
+    return lengths[:, 1] if lengths.ndim == 2 else np.atleast_1d(lengths)
 
 
 def _size(curve: Curve) -> float:

@@ -7,6 +7,8 @@ from plisse.recipe import March
 
 __all__ = ["check_march"]
 
+RANGES = {"distance": "from 1e-9 to 1e9", "direction": "between -90 and 90", "fold": "between 2 and 178"}  # as single values
+
 
 def check_march(march: March, *, closed: bool) -> None:
     """Nothing; raises InvalidDesign where the numbers of a march contradict each other."""
@@ -44,8 +46,8 @@ def _check_family(name: str, value: object, count: int, what: str, *, positive: 
         fits = len(row) == 2 and 0 <= row[0] <= 1 and (2 < row[1] < limit if name == "fold" else
                                                      1e-9 <= row[1] <= limit if positive else -limit < row[1] < limit)
         if not fits:
-            raise InvalidDesign(f"march.{name}[{k}] is {row}; give [position from 0 to 1 across the family, value in the "
-                                "range of single values]")
+            raise InvalidDesign(f"march.{name}[{k}] is {row}; give [position from 0 to 1 across the family, "
+                                f"{name} {RANGES[name]}]")
     positions = [row[0] for row in value]
     if len(value) < 2 or any(b <= a for a, b in pairwise(positions)):
         raise InvalidDesign(f"march.{name} has the positions {positions}; give at least two, in increasing order")

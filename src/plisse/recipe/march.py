@@ -27,8 +27,8 @@ class March(Strict, kw_only=True, frozen=True):
     """
 
     creases: Annotated[int, Meta(ge=3, le=1000, description="a whole number from 3 to 1000")]
-    distance: Annotated[Length | list[Length | list[float]],
-                        Meta(description="one length, one per strip, or a profile [[position, length], …]")]
+    distance: Annotated[Length | list[Length | list[float]], Meta(
+        description="one length from 1e-9 to 1e9 model units, one per strip, or a profile [[position, length], …]")]
     direction: Annotated[Direction | list[Direction | list[float]],
                          Meta(description=ONE_OR_MANY)] = 0.0
     fold: Annotated[FoldAngle | list[FoldAngle | list[float]],

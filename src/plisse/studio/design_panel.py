@@ -5,9 +5,9 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING
 
-from plisse.studio.fields import Field, fields_of
+from plisse.studio.fields import DIGITS, Field, fields_of
 from plisse.studio.series import fitted
-from plisse.studio.waiting import put_away
+from plisse.studio.waiting import Later, put_away
 from plisse.studio.words import TITLES
 
 if TYPE_CHECKING:
@@ -18,7 +18,6 @@ __all__ = ["DesignPanel"]
 LIST = "a number, or a list: one value per crease or strip"
 WIDE = 4.0  # times the range of the field is too wide
 HAND = 2.0  # seconds after which a slider was let go
-DIGITS = 6  # after the point, in what is typed
 
 
 class DesignPanel:
@@ -31,7 +30,7 @@ class DesignPanel:
         self._controls: dict[tuple[str, str], object] = {}
         self._shape: list = []
         self._held = ""  # the key of the control on which somebody's hand may be
-        self._rest: asyncio.TimerHandle | None = None
+        self._rest = Later(asyncio.get_running_loop(), HAND)
 
     def refresh(self) -> None:
         """Bring the controls to the design on the desk."""
@@ -58,9 +57,8 @@ class DesignPanel:
 
     def _hold(self, key: str) -> None:
         """Keep the ends of a slider as they are for as long as it is moved."""
-        if self._rest is not None:
-            self._rest.cancel()
-        self._held, self._rest = key, asyncio.get_running_loop().call_later(HAND, self._let_go)
+        self._held = key
+        self._rest.begin(self._let_go)
 
     def _let_go(self) -> None:
         self._held = ""
@@ -97,7 +95,7 @@ class DesignPanel:
         slider = self._gui.add_slider(field.label, whole(field.low), whole(field.high), whole(field.step),  # type: ignore
                                       field.value, hint=field.words.hint)
         if field.kind == "slider":
-            slider.precision = DIGITS  # what is typed may be finer than a step
+            slider.precision = DIGITS
         return slider
 
     def _number(self, field: Field):

@@ -15,11 +15,12 @@ from plisse.recipe import Recipe
 from plisse.studio.series import SERIES, series_of
 from plisse.studio.words import TITLES, Words, words_of
 
-__all__ = ["Field", "fields_of", "list_text", "value_of_text"]
+__all__ = ["DIGITS", "Field", "fields_of", "list_text", "value_of_text"]
 
 LEFT_OUT = {"curve.points", "curve.file", "surface.file", "surface.height", "surface.radius", "surface.torus", "surface.x",
             "surface.y", "surface.guide", "surface.guide_file", "surface.handles", "surface.edited_file", "solve.weights",
             "solve.iterations", "surface.guide_section", "parallel.moves"}
+DIGITS = 6  # after the point, in what is typed: it may be finer than a step
 NARROW, MOST_CREASES, FARTHEST = 10.0, 40, 1e9
 NUMBERS = inspect.FloatType | inspect.IntType
 UNITS = ((r"degrees", "°"), (r"percent", "%"), (r"model units|\bone length", "unit"))

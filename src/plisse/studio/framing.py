@@ -9,7 +9,8 @@ from scipy.spatial.transform import Rotation
 from plisse.draw.camera import Camera
 from plisse.geometry.vectors import norm
 
-__all__ = ["FIELD_OF_VIEW", "SEEN", "TINY", "Manner", "SheetPlace", "Stand", "Window", "beside", "is_narrow", "seen_by"]
+__all__ = ["FIELD_OF_VIEW", "FILLED", "SEEN", "TINY", "Manner", "SheetPlace", "Stand", "Window", "beside", "is_narrow",
+           "seen_by"]
 
 FIELD_OF_VIEW = np.radians(30)
 FILLED = 0.9  # of the window
@@ -30,6 +31,13 @@ class Stand:
     def distance(self) -> float:
         """From the camera to what it looks at."""
         return float(norm(self.position - self.middle))
+
+    def nearer(self, near: "Stand", distance: float) -> "Stand":
+        """The stand at a distance on the way to a nearer one; this one where it is not farther away than that."""
+        if self.distance <= distance:
+            return self
+        part = (self.distance - distance) / (self.distance - near.distance)
+        return Stand((1 - part) * self.position + part * near.position, (1 - part) * self.middle + part * near.middle)
 
 
 def seen_by(camera) -> Camera:

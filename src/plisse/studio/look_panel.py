@@ -11,6 +11,7 @@ import numpy as np
 from plisse.draw import colours
 from plisse.draw.colour_maps import NAMES
 from plisse.draw.dashes import SHARE
+from plisse.studio.fields import DIGITS
 from plisse.studio.framing import seen_by
 from plisse.studio.view import Tint
 
@@ -77,6 +78,7 @@ class LookPanel:
         with gui.add_folder("Thick"):
             self._kind = gui.add_dropdown("as", (SHEET, "plates", "offset"), hint="Plates and offsets have no colours")
             self._length = gui.add_number("thickness or distance", 1.0, step=0.1)
+            self._length.precision = DIGITS
             self._words = gui.add_markdown("", visible=False)
         with gui.add_folder("Camera"):
             gui.add_button("Best view").on_click(self._frame)
@@ -89,17 +91,13 @@ class LookPanel:
         self._turntable.on_update(self._turned)
 
     def refresh(self) -> None:
-        """Bring the legend and the choice of plates to what is on screen."""
+        """Bring the legend and the choices of colours and plates to what is chosen."""
         self._legend.content = legend_html(self._tab.scene.scale_of_sheet)
-        kind, length = self._tab.solid
-        if self._kind.value != (kind or SHEET):
-            self._kind.value = kind or SHEET
+        _, (kind, length), colour = self._tab.dress.chosen
+        _choose(self._colours, colour or PAPER)
+        _choose(self._kind, kind or SHEET)
         if kind and self._length.value != length:
             self._length.value = length
-
-    def show_paper(self) -> None:
-        """Set the choice of colours to none."""
-        self._colours.value = PAPER
 
     def show_scale(self, tint: Tint | None) -> None:
         """Show what colours mean, or nothing."""
@@ -110,13 +108,13 @@ class LookPanel:
     @property
     def manner(self) -> dict[str, Any]:
         """How what is taken away is made, as `downloads.Order` has it: as it is seen."""
-        camera = self._tab.client.camera
-        return {"length": float(self._length.value), "camera": seen_by(camera), "colour": self._tab.colour,
-                "percent": self._tab.percent, "solid": self._tab.solid[0]}
+        percent, (kind, _), colour = self._tab.dress.chosen
+        return {"length": float(self._length.value), "camera": seen_by(self._tab.client.camera), "colour": colour,
+                "percent": percent, "solid": kind}
 
     def fit(self, size: float) -> None:
         """Suggest a thickness for structures of a size (radius), where none was chosen."""
-        if self._tab.solid[0] == "":
+        if self._tab.dress.chosen.solid[0] == "":
             self._length.value = float(f"{size * THIN:.0e}")
             self._length.step = self._length.value / 10
 
@@ -139,16 +137,10 @@ class LookPanel:
 
     async def _painted(self, event) -> None:
         if event.client is not None:
-            if self._colours.value != PAPER and self._kind.value != SHEET:  # only the sheet has colours
-                self._kind.value = SHEET
-                self._tab.solidify("", float(self._length.value))
             self._tab.paint("" if self._colours.value == PAPER else self._colours.value)
 
     async def _solidified(self, event) -> None:
         if event.client is not None:
-            if self._kind.value != SHEET and self._tab.colour:
-                self.show_paper()
-                self._tab.paint("")
             self._tab.solidify("" if self._kind.value == SHEET else self._kind.value, float(self._length.value))
 
     async def _frame(self, _event) -> None:
@@ -180,3 +172,8 @@ class LookPanel:
                 camera.position = middle + turn.apply(camera.position - middle)
                 camera.look_at = middle  # which goes along with the position
             await asyncio.sleep(1 / FRAMES)
+
+
+def _choose(dropdown: Any, option: str) -> None:
+    if dropdown.value != option:
+        dropdown.value = option

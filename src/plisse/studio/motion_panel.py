@@ -55,7 +55,7 @@ class MotionPanel:
         """Bring the slider to the design on screen."""
         fixed = why_fixed(self._tab.found, self._tab.desk.recipe)
         self._percent.disabled = fixed != ""
-        self._percent.value = self._tab.percent
+        self._percent.value = self._tab.dress.chosen.percent
         if fixed:
             self._words.content = fixed
 

@@ -69,6 +69,7 @@
     const note = document.createElement("div");
     Object.assign(note, { id: "plisse-note", role: "alert", textContent: sentence });
     box.closest(".mantine-Flex-root")?.append(note);
+    document.querySelector("button:has(.icon-tabler-message)")?.click();  // what the status says of before is past
   };
   const hush = () => document.getElementById("plisse-note")?.remove();
   window.addEventListener("pointerdown", hush, true);

@@ -35,6 +35,7 @@ class Panels:
         self._tab, gui = tab, tab.client.gui
         self._narrow = is_narrow(tab.client.camera)
         self._status = gui.add_html("") if self._narrow else self._status_above()
+        gui.add_button("a note was said", icon="message").on_click(self._noted)  # which the page does, and nobody sees
         self._undo = gui.add_button("undo", icon="arrow-back-up", disabled=True)
         self._redo = gui.add_button("redo", icon="arrow-forward-up", disabled=True)
         self._undo.on_click(self._back)
@@ -76,9 +77,9 @@ class Panels:
         """Whether control points are to be seen."""
         return self._points.wanted
 
-    def rounded(self, position: np.ndarray) -> np.ndarray:
-        """A position with as many digits as a hand can tell apart, snapped to the chosen plane."""
-        return self._points.rounded(position)
+    def point_moved(self, index: int, place: np.ndarray) -> None:
+        """The handle of a point was pulled to a place."""
+        self._points.move(index, place)
 
     def point_chosen(self, index: int) -> None:
         """The handle of another point was clicked."""
@@ -104,10 +105,6 @@ class Panels:
         """Suggest lengths for structures of a size (radius)."""
         self._look.fit(size)
 
-    def show_paper(self) -> None:
-        """Show that there are no colours, in the controls too."""
-        self._look.show_paper()
-
     def show_scale(self, tint: Tint | None) -> None:
         """Show what colours mean."""
         self._look.show_scale(tint)
@@ -131,3 +128,6 @@ class Panels:
 
     async def _forth(self, _event) -> None:
         self._tab.act(self._tab.desk.redo)
+
+    async def _noted(self, _event) -> None:
+        self._tab.forget_refusal()

@@ -8,6 +8,7 @@ import numpy as np
 
 from plisse.geometry.curves import seed_curve
 from plisse.recipe import Design
+from plisse.studio.fields import DIGITS
 from plisse.studio.framing import is_narrow
 from plisse.studio.handles import MOST_POINTS, control_points_of, snapped, with_point_after, without_point
 
@@ -32,6 +33,7 @@ class PointsPanel:
                                           hint="Balls on the curve that can be pulled")
             self._number = gui.add_slider("point", 1, 2, 1, 1, hint="Which control point has the arrows")
             self._place = gui.add_vector3(COORDINATES, (0.0, 0.0, 0.0), step=0.1, hint="Where it is: x, y and z")
+            self._place.precision = DIGITS
             self._plane = gui.add_dropdown("points lie", (FREE, "in a plane xy", "in a plane xz", "in a plane yz"),
                                            hint="A plane brings all points into it, and keeps them there when pulled")
             self._edit = gui.add_button_group("points", ("add", "remove"),
@@ -50,14 +52,12 @@ class PointsPanel:
         """Whether handles are to be seen."""
         return self._show.value
 
-    def rounded(self, position: np.ndarray) -> np.ndarray:
-        """A position to four digits of the curve's size, in the plane where one is chosen."""
+    def move(self, index: int, place: np.ndarray) -> None:
+        """Move a point, if there is one of that number, in digits that a hand can tell apart."""
         points = self._points()
-        digits = 3 if points is None else int(np.clip(4 - np.floor(np.log10(np.ptp(points, axis=0).max())), 0, 12))
-        place = np.round(position, digits)
-        if points is not None and self._plane.value != FREE:
-            place = np.round(snapped(np.vstack([points, place]), self._plane.value[-2:])[-1], digits)
-        return place
+        if points is not None and index < len(points):
+            points[index] = self._rounded(place)
+            self._tab.change({"curve.points": points.tolist()})
 
     def choose(self, index: int) -> None:
         """Show another point."""
@@ -79,6 +79,19 @@ class PointsPanel:
     def _points(self) -> np.ndarray | None:
         return control_points_of(self._tab.desk.recipe)
 
+    def _rounded(self, position: np.ndarray) -> np.ndarray:
+        """A position to four digits of the curve's size, in the plane where one is chosen."""
+        points = self._points()
+        digits = 3 if points is None else int(np.clip(4 - np.floor(np.log10(np.ptp(points, axis=0).max())), 0, 12))
+        return np.round(self._in_plane(position), digits)
+
+    def _in_plane(self, position: np.ndarray) -> np.ndarray:
+        """A position in the plane of the points, where one is chosen."""
+        points = self._points()
+        if points is None or self._plane.value == FREE:
+            return position
+        return snapped(np.vstack([points, position]), self._plane.value[-2:])[-1]
+
     @property
     def _closed(self) -> bool:
         return bool(getattr(getattr(self._tab.desk.recipe, "curve", None), "closed", False))
@@ -98,7 +111,7 @@ class PointsPanel:
     async def _typed(self, event) -> None:
         points = self._points()
         if event.client is not None and points is not None:
-            points[self._number.value - 1] = self.rounded(np.array(self._place.value))
+            points[self._number.value - 1] = self._in_plane(np.array(self._place.value))
             self._set(points)
 
     async def _snapped(self, event) -> None:
@@ -122,5 +135,5 @@ class PointsPanel:
         if event.client is None or not isinstance(recipe, Design) or recipe.curve is None:
             return
         points = seed_curve(recipe.curve, POINTS + 4 * recipe.curve.closed)
-        points = np.array([self.rounded(point) for point in points]).tolist()
+        points = np.array([self._rounded(point) for point in points]).tolist()
         self._tab.change({"curve": {"kind": "spline", "points": points, "closed": recipe.curve.closed}})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import itertools
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
@@ -10,7 +11,7 @@ import numpy as np
 
 from plisse.draw import colours
 from plisse.draw.camera import Camera
-from plisse.studio.framing import FIELD_OF_VIEW, SEEN, TINY, Manner, SheetPlace, Stand, Window, beside, seen_by
+from plisse.studio.framing import FIELD_OF_VIEW, FILLED, SEEN, TINY, Manner, SheetPlace, Stand, Window, beside, seen_by
 from plisse.studio.paper import Paper, Shown, ink_bytes
 from plisse.studio.requests import Found
 from plisse.studio.shading import Grooves, light, textured
@@ -31,7 +32,7 @@ CALM = 1.1  # how much nearer the camera must come before the sheet lies elsewhe
 class Scene:
     """Nodes of a client's scene, updated in place; everything here runs in the server's event loop."""
 
-    def __init__(self, client: ClientHandle):
+    def __init__(self, client: ClientHandle, loop: asyncio.AbstractEventLoop):
         self.shown = Shown()
         self._client, self._scene = client, client.scene
         self._found: Found | None = None
@@ -45,7 +46,7 @@ class Scene:
         self._tint = None
         self.is_pale = False
         self._folded, self._sheet = Paper(client.scene, "/folded"), Paper(client.scene, "/sheet")
-        self._grooves = Grooves(client.scene, "/grooves", self._folded)
+        self._grooves = Grooves(client.scene, "/grooves", self._folded, loop)
 
     @property
     def extent(self) -> tuple[np.ndarray, float]:
@@ -136,11 +137,15 @@ class Scene:
             self._show_around(self._found)
 
     def frame(self) -> None:
-        """Move the camera to where the whole structure, and the sheet beside it, is best seen."""
+        """Move the camera to where the whole structure, and the sheet beside it, is best seen.
+
+        What is shown instead, as a state of its motion, is not small for the sake of the sheet: that leaves the window.
+        """
         self._lay_sheet()
         camera = self._client.camera
         camera.fov = FIELD_OF_VIEW
-        self._stand(self._best)
+        is_designed = self._found is None or self._view is self._found.folded
+        self._stand(self._best, least=0.0 if is_designed else TINY)
         light(self._scene, self._best.axes, *self.extent)
 
     def follow(self) -> None:
@@ -164,12 +169,19 @@ class Scene:
             self._lay_sheet()
             self._stand(seen_by(camera))
 
-    def _stand(self, view: Camera) -> None:
-        """Put the camera where everything fills the window as seen in a direction, if there is anything."""
+    def _stand(self, view: Camera, *, least: float = 0.0) -> None:
+        """Put the camera where everything fills the window as seen in a direction, if there is anything.
+
+        It is nearer where the structure alone would take less than about the `least` share of the window.
+        """
         camera, known = self._client.camera, self._in_view
         if not len(known[1]):
             return
-        stand = Window.of(camera).stand(known[1], view.axes)
+        window = Window.of(camera)
+        stand = window.stand(known[1], view.axes)
+        if least:
+            alone = window.stand(known[0], view.axes)
+            stand = stand.nearer(alone, alone.distance * FILLED / least)
         self._stood, self._aspect = stand, camera.aspect
         camera.near, camera.far = 0.002 * stand.distance, 50 * stand.distance
         camera.position, camera.look_at, camera.up_direction = stand.position, stand.middle, view.upright

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plisse.studio.fields import list_text, value_of_text
+from plisse.studio.fields import DIGITS, list_text, value_of_text
 from plisse.studio.series import ALONG, EACH, SAME, SERIES, Series, series_of, with_place_after, without_place
 from plisse.studio.waiting import put_away
 
@@ -68,6 +68,7 @@ class SeriesPanel:
         gui, (low, high, step) = self._tab.client.gui, self._limits(series)
         for k, number in enumerate(series.value[:MOST_ROWS]):  # type: ignore[index]
             row = gui.add_slider(f"{self._words}, {self._part} {k + 1} ({self._unit})", low, high, step, float(number))
+            row.precision = DIGITS
             row.on_update(self._pulled(k))
             self._controls.append(row)
 
@@ -93,6 +94,7 @@ class SeriesPanel:
         number = gui.add_slider("place", 1, count, 1, 1, hint="Which of the places along the curve is set below")
         place = gui.add_vector2(f"position (%), {self._words} ({self._unit})", (0.0, 0.0), step=0.1,
                                 hint="Where along the curve, in percent of its length, and the number there")
+        place.precision = DIGITS
         edit = gui.add_button_group("places", ("add", "remove"), hint="A place after this one, or without this one")
         self._controls += [number, place, edit]
         number.on_update(self._numbered)
@@ -104,7 +106,7 @@ class SeriesPanel:
         text, number, place, _ = self._controls
         _set(text, list_text(series.value))
         position, value = series.value[number.value - 1]  # type: ignore[index]
-        _set(place, (round(PERCENT * position, 6), float(value)))
+        _set(place, (round(PERCENT * position, DIGITS), float(value)))
 
     def _value(self) -> Any:
         series = series_of(self._tab.desk.recipe, self._key)

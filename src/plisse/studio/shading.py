@@ -11,6 +11,7 @@ from plisse.draw.shade import BOUNCE
 from plisse.io.gltf import TRIANGLES, Buffer, linear, primitive
 from plisse.studio.paper import Paper
 from plisse.studio.view import Tint, View
+from plisse.studio.waiting import Later
 
 __all__ = ["Grooves", "light", "shaded", "textured"]
 
@@ -37,22 +38,21 @@ class Grooves:
     Browsers take a moment to load a model, so that it cannot follow what moves.
     """
 
-    def __init__(self, scene, name: str, paper: Paper):
+    def __init__(self, scene, name: str, paper: Paper, loop: asyncio.AbstractEventLoop):
         self._scene, self._name, self._paper = scene, name, paper
-        self._timer: asyncio.TimerHandle | None = None
+        self._still, self._loaded = Later(loop, STILL), Later(loop, LOADED)
         self._model = None
 
     def wait(self, view: View | None) -> None:
         """Show the paper as it is, and shade it later unless there is none."""
         self.leave()
         if view is not None and view.sky is not None:
-            self._timer = asyncio.get_running_loop().call_later(STILL, self._shade, view)
+            self._still.begin(lambda: self._shade(view))
 
     def stop(self) -> None:
         """Leave everything as it is."""
-        if self._timer is not None:
-            self._timer.cancel()
-            self._timer = None
+        self._still.cancel()
+        self._loaded.cancel()
 
     def leave(self) -> None:
         """Take the model away, for the paper is not as it was."""
@@ -63,7 +63,7 @@ class Grooves:
 
     def _shade(self, view: View) -> None:
         self._model = self._scene.add_glb(self._name, shaded(view), cast_shadow=False, receive_shadow=False)
-        self._timer = asyncio.get_running_loop().call_later(LOADED, self._paper.hide_paper)
+        self._loaded.begin(self._paper.hide_paper)
 
 
 def shaded(view: View) -> bytes:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from plisse.studio.downloads import KINDS, MATERIAL, file_name
+from plisse.studio.fields import DIGITS
 
 if TYPE_CHECKING:
     from plisse.studio.tab import Tab
@@ -23,6 +24,7 @@ class TakePanel:
             self._kind = gui.add_dropdown("format", tuple(KINDS), hint="What is made of the design on screen")
             self._material = gui.add_vector2("material of pieces (mm)", MATERIAL, min=SMALLEST, max=LARGEST, step=1.0,
                                               hint="Width and height of the sheets that you have; pieces are nested on them")
+            self._material.precision = DIGITS
             gui.add_button("Download", icon="download").on_click(self._taken)
         with gui.add_folder("Design as text"):
             self._text = gui.add_text("design (TOML)", "", multiline=True,

@@ -278,3 +278,44 @@ def test_what_is_for_those_who_program_with_viser_is_hidden(visitor):
         button = visitor.page.locator(f"button:has(.tabler-icon-{icon})")
         assert button.count() == 1
         assert not button.is_visible()
+
+
+def test_what_was_refused_before_a_note_at_a_box_is_not_said_again(visitor):
+    page, alert = visitor.page, visitor.page.locator("[role=status] [role=alert]")
+    box, note = page.get_by_label(f"{THETA}, as a number", exact=True), page.locator("#plisse-note")
+
+    def typed(text):
+        box.press("Control+a")
+        page.keyboard.type(text)
+        page.keyboard.press("Tab")
+
+    for _ in range(2):
+        typed("95")
+        visitor.wait_for("“inclination θ” is 95")
+        typed("abc")
+        note.wait_for()
+        until(lambda: alert.count() == 0)
+        page.keyboard.press("Shift")
+        until(lambda: note.count() == 0)
+        assert alert.count() == 0
+    assert "exact" in visitor.status
+
+
+def test_numbers_are_taken_as_they_are_typed_in_boxes_without_a_slider_too(visitor):
+    tab = visitor.tab_behind
+    visitor.write("coordinates (mm)", "1.23456")
+    until(lambda: tab.desk.recipe.curve.points[0][0] == 1.23456)
+    visitor.fold_out("Width of single strips")
+    visitor.choose("width is", "along the curve")
+    visitor.write("position (%), width (mm), 2", "5.12345")
+    until(lambda: tab.desk.recipe.pattern.width[0] == [0, 5.12345])
+    visitor.choose("width is", "one by one")
+    visitor.write("width, strip 2 (mm), as a number", "5.12345")
+    until(lambda: tab.desk.recipe.pattern.width[1] == 5.12345)
+    visitor.tab("Look")
+    visitor.choose("as", "offset")
+    visitor.write("thickness or distance", "0.12345")
+    until(lambda: tab.dress.chosen.solid == ("offset", 0.12345))
+    visitor.tab("Take away")
+    visitor.write("material of pieces (mm)", "512.345")
+    until(lambda: tab.panels._take._material.value[0] == 512.345)

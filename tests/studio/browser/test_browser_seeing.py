@@ -16,14 +16,14 @@ def test_the_motion_is_scrubbed_from_flat_to_folded_flat_with_its_free_range(vis
     until(lambda: tab.scene.height_of_paper < 1e-3 * tab.scene.extent[1])
     flat = visitor.seen()
     visitor.slide("folded (%)", "End")
-    until(lambda: tab.percent == 200)
+    until(lambda: tab.dress.chosen.percent == 200)
     visitor.wait_for("Free of collisions from")
     visitor.wait_for("free to")
     until(lambda: not np.array_equal(visitor.seen(), flat))
     visitor.tab("Design")
     visitor.slide("inclination θ (°)", "ArrowLeft")
     until(lambda: tab.found.report.design["pattern"]["theta"] < 40)
-    assert tab.percent == 100
+    assert tab.dress.chosen.percent == 100
 
 
 def test_plates_offsets_colours_and_lines_are_switches_that_can_be_taken_back(visitor):
@@ -38,7 +38,7 @@ def test_plates_offsets_colours_and_lines_are_switches_that_can_be_taken_back(vi
     assert "exact" in visitor.status
     visitor.choose("as", "offset")
     visitor.write("thickness or distance", "2")
-    until(lambda: len(tab.scene.points) == sheet != plates and tab.solid == ("offset", 2))
+    until(lambda: len(tab.scene.points) == sheet != plates and tab.dress.chosen.solid == ("offset", 2))
     until(lambda: "not done" not in visitor.page.locator("[role=status]").inner_text())
     visitor.choose("as", "sheet")
     visitor.choose("colours", "opening")
@@ -48,7 +48,8 @@ def test_plates_offsets_colours_and_lines_are_switches_that_can_be_taken_back(vi
     until(lambda: not np.array_equal(visitor.seen(), painted))
     assert visitor.node("/colours") is not None
     visitor.choose("as", "plates")
-    until(lambda: visitor.page.get_by_label("colours", exact=True).input_value() == "paper" and tab.colour == "")
+    until(lambda: visitor.page.get_by_label("colours", exact=True).input_value() == "paper")
+    assert tab.dress.chosen.colour == ""
     visitor.choose("colours", "opening")
     until(lambda: visitor.page.get_by_label("as", exact=True).input_value() == "sheet")
     until(lambda: visitor.node("/colours") is not None)
@@ -113,7 +114,7 @@ def test_grooves_are_shaded_when_nothing_moves_and_the_paper_moves_without(visit
     until(lambda: visitor.node("/grooves") is not None and not visitor.node("/folded/front").visible)
     visitor.tab("Look")
     visitor.slide("folded (%)", "ArrowLeft")
-    until(lambda: tab.percent < 100 and visitor.node("/folded/front").visible)
+    until(lambda: tab.dress.chosen.percent < 100 and visitor.node("/folded/front").visible)
     until(lambda: not visitor.node("/folded/front").visible)
     visitor.choose("colours", "opening")
     until(lambda: visitor.node("/colours") is not None and visitor.node("/grooves") is None)
@@ -163,6 +164,6 @@ def test_a_phone_of_390_pixels_is_a_viewer(browser, studio):
     phone.wait_for("smallest sector")
     page.get_by_role("tab", name="Look").click()
     phone.slide("folded (%)", "Home")
-    until(lambda: phone.tab_behind.percent == 0)
+    until(lambda: phone.tab_behind.dress.chosen.percent == 0)
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
     phone.leave()
