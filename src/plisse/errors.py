@@ -13,6 +13,10 @@ class InvalidMesh(InvalidDesign):
     """A reference mesh that cannot be read, or is no single surface that can be oriented."""
 
 
+class TooLarge(InvalidDesign):
+    """A design that needs more memory than is free where it is to be made; elsewhere or later it may be possible."""
+
+
 class InvalidStructure(PlisseError, ValueError):
     """A mesh or file that is not a structure of planar faces along creases."""
 

@@ -3,7 +3,7 @@
 import os
 from pathlib import Path
 
-from plisse.errors import InvalidDesign
+from plisse.errors import TooLarge
 
 __all__ = ["CHOSEN", "LARGEST_FACTOR", "available_bytes", "peak_bytes", "refuse_too_large"]
 
@@ -32,11 +32,11 @@ def available_bytes() -> float | None:
 
 
 def refuse_too_large(peak: float, what: str, remedy: str) -> None:
-    """Raise InvalidDesign where a design would need more memory than there is; `remedy` says what to change."""
+    """Raise TooLarge where a design would need more memory than there is; `remedy` says what to change."""
     available = available_bytes()
     if available is not None and peak > available:
         there = "the limit is" if _chosen() == available else "this machine has free only"
-        raise InvalidDesign(f"{what} need about {peak / GB:.2g} GB of memory, but {there} {available / GB:.2g} GB; {remedy}")
+        raise TooLarge(f"{what} need about {peak / GB:.2g} GB of memory, but {there} {available / GB:.2g} GB; {remedy}")
 
 
 def _chosen() -> float | None:

@@ -8,7 +8,7 @@ import msgspec
 from plisse.pipeline import design
 from plisse.result import Report, Spread
 
-__all__ = ["PRINTED", "Printed", "Row", "as_markdown", "table"]
+__all__ = ["PRINTED", "Printed", "Row", "as_json", "as_markdown", "note", "table"]
 
 
 class Printed(msgspec.Struct, frozen=True):
@@ -89,6 +89,21 @@ def as_markdown(rows: Iterable[Row]) -> str:
     ours, theirs = totals(rows)
     lines.append(f"| all | | | | **{ours:.2f}** | **{theirs:.1f}** | | | | | 1 / {theirs / ours:.0f} |")
     return "\n".join(lines) + "\n"
+
+
+def as_json(rows: Iterable[Row]) -> list[dict]:
+    """Rows as objects, with everything that the paper printed for them under `paper_…` and a `note` on other sizes."""
+    asdict = msgspec.structs.asdict
+    return [{**asdict(row), **{f"paper_{key}": value for key, value in asdict(PRINTED[row.name]).items()}, "note": note(row)}
+            for row in rows]
+
+
+def note(row: Row) -> str | None:
+    """Where the size is not the printed one, what the paper printed."""
+    printed = PRINTED[row.name]
+    if (row.vertices, row.faces) == (printed.vertices, printed.faces):
+        return None
+    return f"the paper printed {printed.vertices} vertices and {printed.faces} faces"
 
 
 def totals(rows: Iterable[Row]) -> tuple[float, float]:

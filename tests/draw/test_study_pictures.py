@@ -52,3 +52,11 @@ def test_a_map_takes_numbers_words_lists_and_panels(tmp_path):
     with Image.open(tmp_path / "map.png") as image:
         colours = {colour for _, colour in image.convert("RGB").getcolors(1 << 20)}
     assert {(0x4f, 0x7f, 0x52), (0xb8, 0x43, 0x2f)} <= colours
+
+
+def test_names_are_drawn_as_they_are(tmp_path):
+    name = "a$\\frac$b \u7814\u7a76"
+    write_region(places([(name, name, 1, "exact"), (name, name, 2, "exact")]), tmp_path / "map.png", labels=(name, name),
+                 panels=name, outcomes=("exact",), title=name)
+    write_contact_sheet([Frame(None, name, name, "exact")], tmp_path / "sheet.png", title=name)
+    assert (tmp_path / "map.png").stat().st_size > 1000 < (tmp_path / "sheet.png").stat().st_size

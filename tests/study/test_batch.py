@@ -1,5 +1,6 @@
 """Designs that are handed out together."""
 
+from concurrent.futures import Future
 from itertools import pairwise
 
 import pytest
@@ -28,9 +29,42 @@ def test_the_last_designs_are_shared_among_all_workers():
                                             ({"closed_form": {"kind": "none"}}, "invalid")])
 def test_every_outcome_of_a_batch_comes_before_its_end_in_the_order_of_the_designs(recipe, status):
     with crew(workers=1) as running:
-        post = Post(running.client, Limits(), False)
-        batch, came = post.send([(f"{k}", recipe) for k in range(5)]), []
-        while not batch.future.done():
-            came += [(key, outcome.status) for key, outcome in post.outcomes(0.5)]
-        came += [(key, outcome.status) for key, outcome in post.outcomes(0.0)]
+        with Post(running.client, Limits(), False) as post:
+            batch, came = post.send([(f"{k}", recipe) for k in range(5)]), []
+            while not batch.future.done():
+                came += [(key, outcome.status) for key, outcome in post.outcomes(0.5)]
+            came += [(key, outcome.status) for key, outcome in post.outcomes(0.0)]
         assert came == [(f"{k}", status) for k in range(5)] and list(batch.left) == [key for key, _ in came]
+
+
+class Listener:
+    """A client that only knows who listens."""
+
+    status, topics = "running", ()
+
+    def subscribe_topic(self, topic, handler):
+        self.topics = {*self.topics, topic}
+
+    def unsubscribe_topic(self, topic):
+        self.topics = {*self.topics} - {topic}
+
+    def submit(self, *_, **__):
+        return Future()
+
+
+def test_nobody_listens_any_more_when_all_batches_are_done():
+    client = Listener()
+    with Post(client, Limits(), False) as post:
+        for _ in range(2):
+            post.send([("key", {})])
+        assert len(client.topics) == 1
+    assert not client.topics
+    client.status = "closed"  # and a client that is gone is told nothing
+    with Post(client, Limits(), False) as post:
+        post.send([("key", {})])
+    assert client.topics
+
+
+def test_what_breaks_while_the_scheduler_is_there_keeps_its_own_error():
+    with crew(workers=1) as running, pytest.raises(BrokenPipeError), running.reached("nothing is kept"):
+        raise BrokenPipeError

@@ -42,7 +42,14 @@ def test_too_much_time_ends_the_process(workshop):
     assert not workshop.is_usable
 
 
-def test_a_process_killed_from_outside_is_worth_another_attempt(workshop):
+def test_a_process_that_is_gone_before_it_has_started_is_worth_another_attempt(workshop, small):
+    psutil.Process(workshop.pid).kill()
+    outcome = workshop.made(small, Limits())
+    assert outcome.status == "died" and "does not start: it ended with code" in outcome.reasons[0]
+
+
+def test_a_process_killed_from_outside_is_worth_another_attempt(workshop, small):
+    workshop.made(small, Limits())
     found = []
     thread = threading.Thread(target=lambda: found.append(workshop.made(LARGE, Limits())))
     thread.start()

@@ -2,12 +2,14 @@ import contextlib
 import sqlite3
 
 import pytest
+from PIL import Image
 
 from plisse.errors import PlisseError
+from plisse.study import Study
 from plisse.study.outcome import Outcome
 from plisse.study.plan import read_plan
 from plisse.study.samples import samples
-from plisse.study.store import LOCK, Store, locked
+from plisse.study.store import LOCK, STORE, Store, locked
 
 
 @pytest.fixture
@@ -72,6 +74,7 @@ def test_two_studies_on_one_store_are_refused_with_a_sentence(tmp_path):
         pass
     with locked(tmp_path):
         pass
+    assert not any(tmp_path.iterdir())
 
 
 def test_what_cannot_be_a_lock_is_a_sentence(tmp_path):
@@ -119,3 +122,51 @@ def test_what_is_no_store_is_refused_and_left_alone(tmp_path):
     (tmp_path / "other.sqlite").replace(tmp_path / "study.sqlite")
     with pytest.raises(PlisseError, match="not the store of a study"):
         Store(tmp_path)
+
+
+def test_the_values_that_vary_are_those_of_the_plan_that_asks_now(tmp_path, study, planned):
+    fixed = {**study["base"]["closed_form"], "width": 4}
+    other = samples(read_plan({"base": {"closed_form": fixed}, "vary": {"closed_form.slope": [1.0, 0.5]}}))
+    assert {sample.key for sample in other} < {sample.key for sample in planned}
+    with Store(tmp_path) as store:
+        store.plan(planned)
+        store.done(other[0].key, Outcome(status="exact", reasons=[]))
+        store.plan(other)
+    rows = Study.load(tmp_path, [sample.key for sample in other]).rows
+    assert [row.parameters for row in rows] == [{"closed_form.slope": 1.0}, {"closed_form.slope": 0.5}]
+    assert rows[0].status == "exact"
+
+
+def test_a_store_that_another_program_holds_is_to_be_waited_for(tmp_path, planned):
+    with Store(tmp_path) as store, contextlib.closing(sqlite3.connect(tmp_path / STORE, isolation_level=None)) as other:
+        store.plan(planned)
+        store._base.execute("PRAGMA busy_timeout = 10")
+        other.execute("BEGIN EXCLUSIVE")
+        with pytest.raises(PlisseError, match=r"another program works with .*; wait until .* run the same command again"):
+            store.begun(planned[0].key)
+
+
+def test_a_store_that_breaks_in_the_middle_is_a_sentence(tmp_path, planned):
+    with Store(tmp_path) as store:
+        store.plan(planned)
+        store._base.executescript("DROP TABLE pictures; DROP TABLE designs;")
+        for question in (store.waiting, store.statuses, lambda: store.begun("key"), lambda: store.pictures(["key"])):
+            with pytest.raises(PlisseError, match=r"study\.sqlite is not the store of a study"):
+                question()
+
+
+def test_a_page_that_is_too_small_shows_the_first_designs_where_none_is_exact(tmp_path, study):
+    planned = samples(read_plan({**study, "vary": {"closed_form.width": {"start": 4, "stop": 8, "count": 150}}}))
+    with Store(tmp_path) as store:
+        store.plan(planned)
+        for sample in planned:
+            store.done(sample.key, Outcome(status="approximate", reasons=["not flat"]))
+    found = Study.load(tmp_path)
+    found.write_contact_sheet(tmp_path / "all.png")
+    Study(tmp_path, found.rows[:120]).write_contact_sheet(tmp_path / "first.png")
+    assert size(tmp_path / "all.png") == size(tmp_path / "first.png")
+
+
+def size(picture):
+    with Image.open(picture) as image:
+        return image.size

@@ -22,7 +22,7 @@ from plisse.recipe.fields import without_none
 from plisse.study import Study, run
 from plisse.study.crew import crew
 from plisse.study.plan import Map
-from plisse.study.store import STORE
+from plisse.study.store import STORE, locked
 
 
 @pytest.fixture(scope="module")
@@ -122,10 +122,62 @@ def test_a_scheduler_that_does_not_answer_is_a_sentence(tmp_path, study, monkeyp
     assert not any(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("address", ["banana", "", "tcp://", "tcp://host", "host:port", "http://10.0.0.1:8786/x"])
-def test_what_is_no_address_is_a_sentence_and_leaves_nothing(tmp_path, study, address):
+@pytest.mark.parametrize("address", ["banana", "", "tcp://", "tcp://host", "host:port", "http://10.0.0.1:8786/x",
+                                     "tcp://10.0.0.1:65536"])
+def test_what_is_no_address_is_a_sentence_before_anything_is_said_or_left(tmp_path, study, address):
+    said = []
     with pytest.raises(PlisseError, match="give an address of the form tcp://host:port"):
-        run(study, tmp_path / "out", scheduler=address)
+        run(study, tmp_path / "out", scheduler=address, progress=lambda stage, fraction: said.append(stage))
+    assert not said and not any(tmp_path.iterdir())
+
+
+def test_a_connection_that_is_refused_is_said_within_seconds(tmp_path, study, monkeypatch):
+    monkeypatch.setattr("plisse.study.crew.CONNECT_SECONDS", 1.0)
+    start = time.monotonic()
+    with pytest.raises(PlisseError, match=r"tcp://127.0.0.1:9 \(ConnectionRefusedError: "):
+        run(study, tmp_path / "out", scheduler="tcp://127.0.0.1:9")
+    assert time.monotonic() - start < 8
+
+
+SERVE = """
+import asyncio, distributed
+async def serve():
+    async with distributed.Scheduler(host="127.0.0.1", port=0, dashboard=False) as scheduler:
+        print(scheduler.address, flush=True)
+        await scheduler.finished()
+asyncio.run(serve())
+"""
+
+
+def test_a_scheduler_that_dies_is_one_sentence_and_what_is_done_is_kept(tmp_path, study, monkeypatch, capfd):
+    monkeypatch.setattr("plisse.study.crew.ANSWER_SECONDS", 2.0)
+    command = [sys.executable, "-c", SERVE]
+    server = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, encoding="utf-8")
+    address = server.stdout.readline().strip()
+    with server, pytest.raises(PlisseError, match=rf"^the scheduler at {address} is gone; what is done is kept in .*out, "
+                                                  "the same command goes on$"):
+        run(study, tmp_path / "out", scheduler=address, progress=lambda stage, _: stage[0].isdigit() and server.kill())
+    assert Study.load(tmp_path / "out").counts == {"waiting": 6}
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("workers", [-1, 0, 1.5, "two"])
+def test_how_many_workers_is_a_whole_number_from_one(tmp_path, study, workers):
+    with pytest.raises(InvalidDesign, match=f"workers is {workers!r}; give a whole number from 1"):
+        run(study, tmp_path / "out", workers=workers)
+    assert not any(tmp_path.iterdir())
+
+
+def test_no_more_workers_are_started_than_designs_wait():
+    before = psutil.Process().children()
+    with crew(designs=1):
+        assert len(set(psutil.Process().children()) - set(before)) == 1
+
+
+def test_where_another_study_works_no_worker_is_started(tmp_path, study, monkeypatch):
+    monkeypatch.setattr("plisse.study.study.crew", None)
+    with locked(tmp_path), pytest.raises(PlisseError, match="another study works in"):
+        run(study, tmp_path)
     assert not any(tmp_path.iterdir())
 
 
@@ -174,6 +226,13 @@ def test_designs_of_an_earlier_study_are_kept_and_not_counted(tmp_path, study, s
     assert len((tmp_path / "results.csv").read_text(encoding="utf-8").splitlines()) == 2
     assert main(["study", str(hopeless), "-o", str(tmp_path), "--best", "1"]) == 1
     assert len(Study.load(tmp_path).rows) == 7
+
+
+def test_a_study_without_a_map_leaves_none_of_an_earlier_one(tmp_path, study, scheduler):
+    run(study, tmp_path, scheduler=scheduler)
+    assert (tmp_path / "map.png").exists()
+    run({**study, "vary": {"closed_form.slope": [0.5, 1.0]}}, tmp_path, scheduler=scheduler)
+    assert not (tmp_path / "map.png").exists()
 
 
 def test_a_missing_dask_is_a_sentence(tmp_path, study, monkeypatch):

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rich import box
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
@@ -66,27 +67,30 @@ def _over_surface(report: Report) -> list[tuple[str, str]]:
 
 
 def show_table(rows: list[Row]) -> None:
-    """Print the examples of Fig. 21 with the paper's numbers beside ours."""
-    from plisse.table import PRINTED, totals
+    """Print the examples of Fig. 21 with the paper's numbers beside ours, in 80 columns."""
+    from plisse.table import PRINTED, note, totals
 
-    shown = Table(title="Fig. 21: ours beside the paper's", title_justify="left")
-    for name in ("figure", "vertices", "faces", "steps", "seconds", "paper", "planarity", "paper", "angle defect", "paper",
-                 "status"):
-        shown.add_column(name, justify="left" if name in ("figure", "status") else "right")
+    shown = Table(box=box.SIMPLE, show_edge=False, padding=0, title="Fig. 21: ours beside the paper's", title_justify="left")
+    for name in ("figure", "V", "F", "steps", "seconds", "paper", "planarity", "paper", "angle\ndefect", "paper", "status"):
+        shown.add_column(name, justify="left" if name in ("figure", "status") else "right", no_wrap=True)
     for row in rows:
         printed = PRINTED[row.name]
+        powers = (row.planarity_max, printed.planarity_max, row.angle_max, printed.angle_max)
         shown.add_row(row.name, str(row.vertices), str(row.faces), str(row.iterations), f"{row.seconds:.3f}",
-                      f"{row.paper_seconds:g}", *(_power(value) for value in (row.planarity_max, printed.planarity_max,
-                                                                             row.angle_max, printed.angle_max)),
-                      Text(row.status, STYLES[row.status]))
+                      f"{row.paper_seconds:g}", *map(_power, powers), Text(row.status, STYLES[row.status]))
     ours, theirs = totals(rows)
     shown.add_section()
-    shown.add_row("all", "", "", "", f"{ours:.2f}", f"{theirs:.1f}", "", "", "", "", f"{theirs / ours:.0f} times as fast")
-    Console(width=max(Console().width, 110)).print(shown)
+    shown.add_row("all", "", "", "", f"{ours:.2f}", f"{theirs:.1f}")
+    console = Console()
+    console.print(shown)
+    console.print(f"V vertices, F faces; {theirs / ours:.0f} times as fast as the paper", highlight=False)
+    for row in rows:
+        if note(row):
+            console.print(Text(f"· {row.name}: {note(row)}"))
 
 
 def _power(value: float | None) -> str:
-    return "" if value is None else f"{value:.1e}"
+    return "" if value is None else f"{value:.0e}"
 
 
 def show_check(report: Report, *, title: str) -> None:

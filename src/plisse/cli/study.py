@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from cyclopts import Parameter
+from cyclopts import Parameter, Token
 
 from plisse.cli.limits import Threads, bound
 
@@ -19,15 +19,25 @@ __all__ = ["study"]
 LINE_EVERY = 60.0  # seconds
 
 
+def _whole(kind: type, tokens: Sequence[Token]) -> int:
+    try:
+        return int(tokens[0].value)
+    except ValueError:
+        raise ValueError(f'"{tokens[0].value}" is no whole number') from None
+
+
+Whole = Annotated[int | None, Parameter(converter=_whole)]
+
+
 def study(
     study: Path | None = None,
     /,
     *,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     scheduler: str | None = None,
-    workers: Annotated[int | None, Parameter()] = None,
+    workers: Whole = None,
     retry: Annotated[bool, Parameter(negative=())] = False,
-    best: int | None = None,
+    best: Whole = None,
     by: Literal["regularity", "deviation", "opening", "sheet_area"] | None = None,
     json: Annotated[bool, Parameter(negative=())] = False,
     quiet: Annotated[bool, Parameter(negative=())] = False,
@@ -44,11 +54,12 @@ def study(
     scheduler
         Address of a running Dask scheduler, for example tcp://10.0.0.1:8786.
     workers
-        How many designs are made at the same time on this machine; one per core if left out.
+        How many designs are made at the same time on this machine; one per core if left out. A scheduler has its own.
     retry
         Try designs again that took too long or too much memory, or failed.
     best
-        Make nothing; copy so many of the best designs that are done to DIR/best, each with a picture.
+        Add nothing to the study; write so many of the best designs that are done to DIR/best, each with a picture, for which
+        it is solved again.
     by
         What is best: regularity, deviation, opening or sheet_area.
     json
@@ -62,6 +73,12 @@ def study(
 
     if workers is not None and workers < 1:
         raise PlisseError(f"--workers is {workers}; give a number from 1")
+    if scheduler is not None and workers is not None:
+        raise PlisseError("--workers counts processes on this machine, --scheduler names others; leave one out")
+    others = [name for name, given in (("--scheduler", scheduler), ("--workers", workers), ("--retry", retry or None))
+              if given is not None]
+    if best is not None and others:
+        raise PlisseError(f"--best adds nothing to a study, and {others[0]} says how designs are added; leave one out")
     if best is not None:
         return _copy_best(study, output, best, by, json, quiet)
     if study is None:
@@ -69,6 +86,8 @@ def study(
     if by is not None:
         raise PlisseError("--by says how --best chooses; give --best 10 as well")
     directory = Path(study.stem) if output is None else output
+    if output is None and directory.is_file():
+        raise PlisseError(f"{directory} is a file, and results go to a directory of that name; name another one with -o")
     try:
         with _progress(quiet or json) as advance:
             found = run(study, directory, scheduler=scheduler, workers=workers, retry=retry, progress=advance)
@@ -82,6 +101,8 @@ def study(
 
 
 def _copy_best(study: Path | None, output: Path | None, count: int, by: str | None, json: bool, quiet: bool) -> int:
+    import sys
+
     from plisse.cli.console import progress
     from plisse.errors import PlisseError
     from plisse.study import Study
@@ -96,8 +117,12 @@ def _copy_best(study: Path | None, output: Path | None, count: int, by: str | No
     plan = None if study is None else read_plan(study)
     by = by or ("regularity" if plan is None else plan.by)
     found = Study.load(directory, None if plan is None else [sample.key for sample in samples(plan)])
-    if not found.best(1, by=by):
+    there = len(found.best(by=by))
+    if not there:
         raise PlisseError(f"no design in {found.directory} is exact and has a {by.replace('_', ' ')}; widen the study")
+    if there < count and not (quiet or json):
+        print(f"only {there} design{'s are' if there > 1 else ' is'} exact and can be chosen by {by.replace('_', ' ')}",
+              file=sys.stderr)
     with progress(quiet or json) as advance:
         files = found.write_best(count, by=by, progress=advance)
     if json:

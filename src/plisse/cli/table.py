@@ -19,7 +19,7 @@ def table(*names: str, json: Annotated[bool, Parameter(negative=())] = False,
     names
         Only these examples, for example fig01d fig19; all of them when none is given.
     json
-        Print a list of objects.
+        Print a list of objects, with all that the paper printed.
     markdown
         Print a Markdown table.
     quiet
@@ -30,7 +30,7 @@ def table(*names: str, json: Annotated[bool, Parameter(negative=())] = False,
 
     from plisse.cli.console import progress, show_table
     from plisse.errors import InvalidDesign, PlisseError
-    from plisse.table import PRINTED, as_markdown
+    from plisse.table import PRINTED, as_json, as_markdown
     from plisse.table import table as rows_of
 
     if json and markdown:
@@ -41,7 +41,7 @@ def table(*names: str, json: Annotated[bool, Parameter(negative=())] = False,
     with progress(quiet or json) as report:
         rows = rows_of(dict.fromkeys(names) or None, progress=report)
     if json:
-        print(msgspec.json.format(msgspec.json.encode(rows)).decode())
+        print(msgspec.json.format(msgspec.json.encode(as_json(rows))).decode())
     elif markdown:
         print(as_markdown(rows), end="")
     else:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from plisse.draw import colours
+from plisse.draw.letters import letters_as_boxes
 from plisse.draw.thumbnail import THUMBNAIL
 
 if TYPE_CHECKING:
@@ -38,6 +39,7 @@ def outcome_colour(outcome: str) -> str:
     return _COLOURS.get(outcome, colours.CAPTION)
 
 
+@letters_as_boxes()
 def write_contact_sheet(frames: Sequence[Frame], path: str | Path, *, title: str = "") -> None:
     """Write a PNG of up to MOST frames in rows; equal frames give equal bytes."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg

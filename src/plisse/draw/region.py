@@ -9,6 +9,7 @@ import numpy as np
 
 from plisse.draw import colours
 from plisse.draw.contact_sheet import outcome_colour
+from plisse.draw.letters import letters_as_boxes
 
 __all__ = ["Place", "places", "write_region"]
 
@@ -35,6 +36,7 @@ def places(designs: Iterable[tuple[object, object, object, str]]) -> list[Place]
     return list(found.values())
 
 
+@letters_as_boxes()
 def write_region(found: Sequence[Place], path: str | Path, *, labels: tuple[str, str], panels: str | None = None,
                  outcomes: Sequence[str] = (), title: str = "") -> None:
     """Write a PNG with a disk per place, whose rings are the shares of outcomes there, the first of them innermost.
@@ -53,18 +55,19 @@ def write_region(found: Sequence[Place], path: str | Path, *, labels: tuple[str,
     grid = figure.subplots(down, across, squeeze=False, sharex=True, sharey=True)
     x_scale, y_scale = _scale([place.x for place in found]), _scale([place.y for place in found])
     size = float(np.clip((PANEL * 72 * 0.75) ** 2 / max(len(found) / max(len(names), 1), 1) * 0.35, SMALLEST, LARGEST))
+    label = {"fontsize": 8, "color": colours.INK, "parse_math": False}
     for number, axes in enumerate(grid.ravel()):
         if number >= max(len(names), 1):
             axes.set_axis_off()
             continue
         here = [place for place in found if not names or repr(place.panel) == repr(names[number])]
         _draw(axes, here, x_scale, y_scale, size, outcomes)
-        axes.set_xlabel(labels[0], fontsize=8, color=colours.INK)
-        axes.set_ylabel(labels[1], fontsize=8, color=colours.INK)
+        axes.set_xlabel(labels[0], **label)
+        axes.set_ylabel(labels[1], **label)
         if panels is not None:
-            axes.set_title(f"{panels} = {_written(names[number])}", fontsize=8, color=colours.INK)
+            axes.set_title(f"{panels} = {_written(names[number])}", **label)
     _legend(figure, found, outcomes)
-    figure.suptitle(title, fontsize=10, color=colours.INK)
+    figure.suptitle(title, fontsize=10, color=colours.INK, parse_math=False)
     FigureCanvasAgg(figure).print_png(str(path), metadata={"Software": None}, pil_kwargs={"compress_level": 6})
 
 
@@ -80,7 +83,7 @@ def _draw(axes, found: Sequence[Place], x_scale, y_scale, size: float, outcomes:
         axes.scatter(x[some], y[some], s=size * share[some, k], c=outcome_colour(outcomes[k]), linewidths=0, zorder=3)
     for axis, scale in ((axes.xaxis, x_scale), (axes.yaxis, y_scale)):
         if scale.words:
-            axis.set_ticks(range(len(scale.words)), [text[:16] for text in scale.words])
+            axis.set_ticks(range(len(scale.words)), [text[:16] for text in scale.words], parse_math=False)
     axes.tick_params(labelsize=7, colors=colours.CAPTION)
     axes.spines[:].set(color=colours.CAPTION, linewidth=0.4)
     axes.margins(0.12)

@@ -15,6 +15,7 @@ from plisse.study.plan import Limits
 __all__ = ["Batch", "Post", "how_many"]
 
 TOGETHER = 0.5  # seconds that the designs of a batch may take in all
+BATCH_ENDED = None  # a letter without outcome: there is something to look at
 SHARES = 2  # batches at least for every worker, as long as designs wait: all shall end together
 
 
@@ -26,12 +27,19 @@ class Batch:
 
 
 class Post:
-    """Batches go to the workers of a Dask client, and outcomes come back under a topic of our own."""
+    """Batches go to the workers of a Dask client, and outcomes come back under a topic of our own, within `with`."""
 
     def __init__(self, client: Any, limits: Limits, forecast: bool):
         self._client, self._terms = client, (limits, forecast)
         self._topic, self._letters = f"plisse-{uuid4().hex}", SimpleQueue[tuple[float, list] | None]()
         self._sent = 0
+
+    def __enter__(self) -> "Post":
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        if self._sent and self._client.status == "running":
+            self._client.unsubscribe_topic(self._topic)
 
     def send(self, designs: list[tuple[str, dict]]) -> Batch:
         """Hand designs to the next worker that is free."""
@@ -39,7 +47,7 @@ class Post:
         self._client.subscribe_topic(self._topic, self._letters.put)  # again: a scheduler may have been away
         future = self._client.submit(made_in_turn, designs, *self._terms, self._topic, pure=False,
                                      key=f"{self._topic}-{self._sent}")
-        future.add_done_callback(lambda future: self._letters.put(None))
+        future.add_done_callback(lambda future: self._letters.put(BATCH_ENDED))
         return Batch(designs, future)
 
     def outcomes(self, seconds: float) -> Iterator[tuple[str, Outcome]]:
@@ -47,7 +55,7 @@ class Post:
         with suppress(Empty):
             letter = self._letters.get(timeout=seconds)
             while True:
-                if letter is not None:
+                if letter is not BATCH_ENDED:
                     key, outcome = letter[1]
                     yield key, msgspec.msgpack.decode(outcome, type=Outcome)
                 letter = self._letters.get_nowait()

@@ -1,5 +1,6 @@
 """The best designs of a study by a criterion, and their files."""
 
+import re
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
@@ -7,6 +8,9 @@ from plisse.errors import InvalidDesign
 from plisse.study.store import Row
 
 __all__ = ["CRITERIA", "best", "write_best"]
+
+
+OURS = re.compile(r"\d{2,}-[0-9a-f]{16}\.(toml|png)")
 
 
 def _opening(numbers: dict) -> float | None:
@@ -41,14 +45,19 @@ def best(rows: Iterable[Row], by: str, count: int | None = None) -> list[Row]:
 
 
 def write_best(rows: Sequence[Row], directory: Path, *, progress: Callable[[str, float], None] | None = None) -> list[Path]:
-    """Paths of TOML files of designs, each beside a PNG of it made anew; files 01 … of an earlier choice are replaced."""
+    """Paths of TOML files of designs, each beside a PNG of it made anew; those of an earlier choice are replaced.
+
+    Other files in the directory stay as they are. Raises PlisseError where a file cannot be written.
+    """
     from plisse.draw.preview import write_preview
-    from plisse.io.atomic import written_together
+    from plisse.io.atomic import require_writable, written_together
     from plisse.io.toml import write_toml
     from plisse.pipeline import design
 
     names = [f"{number:02}-{row.key}" for number, row in enumerate(rows, 1)]
-    earlier = [path.name for path in directory.glob("[0-9]*-*.*")] if directory.is_dir() else []
+    require_writable(directory, [f"{name}{suffix}" for name in names for suffix in (".toml", ".png")])
+    found = directory.iterdir() if directory.is_dir() else ()
+    earlier = [path.name for path in found if OURS.fullmatch(path.name) and path.is_file()]
     with written_together(directory, owned=earlier) as stage:
         for k, (name, row) in enumerate(zip(names, rows, strict=True)):
             if progress:

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from time import perf_counter
 
-from plisse.errors import PlisseError
+from plisse.errors import Infeasible, InvalidDesign, PlisseError, TooLarge
 from plisse.study.outcome import Outcome
 
 __all__ = ["IDLE_SECONDS", "READY", "attempted"]
@@ -32,7 +32,7 @@ def attempted(recipe: dict, memory: int, forecast: bool = False) -> Outcome:
         with _bounded(memory):
             outcome = _made(recipe, forecast)
     except PlisseError as error:
-        outcome = Outcome(status="invalid", reasons=[str(error)])
+        outcome = Outcome(status=_status(error, recipe), reasons=[str(error)])
     except MemoryError:
         outcome = Outcome(status="memory", reasons=[f"it needs more than {memory / 2**30:.3g} GiB of memory; raise "
                                                     "limits.memory, or lower pattern.samples or pattern.creases"])
@@ -41,6 +41,22 @@ def attempted(recipe: dict, memory: int, forecast: bool = False) -> Outcome:
     from msgspec.structs import replace
 
     return replace(outcome, seconds=perf_counter() - start)
+
+
+def _status(error: PlisseError, recipe: dict) -> str:
+    """What a refusal makes of a design: invalid is a mistake of the recipe, all that another worker may do better is not."""
+    if isinstance(error, TooLarge):
+        return "memory"
+    if isinstance(error, Infeasible):
+        return "infeasible"
+    there = all(os.access(file, os.R_OK) for file in _files(recipe))
+    return "invalid" if isinstance(error, InvalidDesign) and there else "failed"
+
+
+def _files(recipe: dict) -> list[str]:
+    """The files that a recipe names."""
+    sections = [section for section in recipe.values() if isinstance(section, dict)]
+    return [value for section in sections for key, value in section.items() if f"_{key}".endswith("_file") and value]
 
 
 def _made(recipe: dict, forecast: bool) -> Outcome:

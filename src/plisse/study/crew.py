@@ -13,17 +13,19 @@ from time import monotonic
 
 from plisse.errors import PlisseError
 from plisse.extras import optional
-from plisse.study.isolated import process_options
+from plisse.study.isolated import last_words, process_options
 
-__all__ = ["Crew", "crew"]
+__all__ = ["Crew", "crew", "require_address"]
 
 PURPOSE = "studies"
 PATIENCE = 10.0  # seconds within which a worker that ends has not worked at all
 FAILURES = 5
-ANSWER_SECONDS = 20.0
+CONNECT_SECONDS, ANSWER_SECONDS, CLOSE_SECONDS = 5.0, 20.0, 2.0  # as long as a scheduler may take
 SILENT_SECONDS = 5.0  # without workers, before it is said
 COUNT_EVERY = 0.5  # seconds between looks at how many workers there are
-ADDRESS = re.compile(r"((tcp|tls|ws|wss|ucx)://)?(\[[\da-fA-F:.]+\]|[\w.-]+):\d{1,5}")
+LAST_PORT = 65535
+ADDRESS = re.compile(r"((tcp|tls|ws|wss|ucx)://)?(\[[\da-fA-F:.]+\]|[\w.-]+):(?P<port>\d{1,5})")
+NOISY = ("distributed", "distributed.client", "distributed.gc")  # each has a level of its own
 # Dask looks at itself a hundred times a second, which costs a twentieth of a core per worker
 UNWATCHED = {"distributed.worker.profile.enabled": False, "distributed.admin.tick.interval": "1s",
              "distributed.admin.system-monitor.interval": "5s"}
@@ -36,7 +38,7 @@ class Crew:
         self.client, self._address = client, local_address
         self._processes: list[subprocess.Popen] = []
         self._started: list[float] = []
-        self._failures = 0
+        self._failures = [0] * count  # in a row, of each worker
         self._staffed = monotonic()  # when there were workers last
         self._counted, self._capacity = float("-inf"), 0
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115  lives as long as the crew
@@ -64,9 +66,10 @@ class Crew:
         for k, process in enumerate(self._processes):
             if process.poll() is None:
                 continue
-            self._failures = self._failures + 1 if monotonic() - self._started[k] < PATIENCE else 0
-            if self._failures >= FAILURES:
-                raise PlisseError(f"workers do not start on this machine{self._last_words()}; "
+            self._failures[k] = self._failures[k] + 1 if monotonic() - self._started[k] < PATIENCE else 0
+            if self._failures[k] >= FAILURES:
+                said = last_words(self._errors)
+                raise PlisseError(f"workers do not start on this machine{f' ({said})' if said else ''}; "
                                   "see whether `python -c 'import distributed'` works")
             _end(process)
             self._processes[k], self._started[k] = self._worker(), monotonic()
@@ -82,10 +85,20 @@ class Crew:
         return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=self._errors,
                                 **process_options())
 
-    def _last_words(self) -> str:
-        self._errors.seek(0)
-        lines = self._errors.read()[-2000:].decode(errors="replace").strip().splitlines()
-        return f" ({lines[-1].strip()})" if lines else ""
+    @contextmanager
+    def reached(self, kept: str) -> Iterator[None]:
+        """Raises PlisseError, with `kept` in it, where the scheduler goes away meanwhile."""
+        address = self.client.scheduler.address
+        try:
+            yield
+        except PlisseError:
+            raise
+        except Exception as error:  # a client that is closing raises whatever it stumbles over
+            from distributed.comm import CommClosedError
+
+            if self.client.status == "running" and not isinstance(error, CommClosedError):
+                raise
+            raise PlisseError(f"the scheduler at {address} is gone; {kept}, the same command goes on") from None
 
 
 def _end(process: subprocess.Popen) -> None:
@@ -95,19 +108,29 @@ def _end(process: subprocess.Popen) -> None:
     process.stdin.close()
 
 
+def require_address(scheduler: str) -> None:
+    """Nothing; raises PlisseError where this is no address of a scheduler."""
+    found = ADDRESS.fullmatch(scheduler)
+    if found is None or int(found["port"]) > LAST_PORT:
+        raise PlisseError(f"--scheduler is {scheduler!r}; give an address of the form tcp://host:port, for example "
+                          "tcp://10.0.0.1:8786")
+
+
 @contextmanager
-def crew(scheduler: str | None = None, workers: int | None = None) -> Iterator[Crew]:
+def crew(scheduler: str | None = None, workers: int | None = None, *, designs: int = sys.maxsize) -> Iterator[Crew]:
     """Workers for a study: `workers` on this machine, one per core if not said, or those of a `scheduler` address.
+
+    No more are started than there are `designs`.
 
     Raises MissingExtra without Dask, PlisseError where the scheduler does not answer or has no address.
     """
-    if scheduler is not None and not ADDRESS.fullmatch(scheduler):
-        raise PlisseError(f"--scheduler is {scheduler!r}; give an address of the form tcp://host:port, for example "
-                          "tcp://10.0.0.1:8786")
+    if scheduler is not None:
+        require_address(scheduler)
     distributed = optional("distributed", extra="sweep", purpose=PURPOSE)
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters is a row of the study
+    for name in NOISY:  # what matters is a row of the study
+        logging.getLogger(name).setLevel(logging.CRITICAL + 1)
     if scheduler is None:
-        with _local(distributed, workers) as found:
+        with _local(distributed, workers, designs) as found:
             yield found
         return
     try:
@@ -115,7 +138,10 @@ def crew(scheduler: str | None = None, workers: int | None = None) -> Iterator[C
             aside.submit(asyncio.run, _asked(distributed, scheduler)).result()
         client = distributed.Client(scheduler, timeout=ANSWER_SECONDS, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
-        reason = f"{type(error).__name__}: {error}".splitlines()[0].rstrip(": ")
+        met: BaseException = error
+        while isinstance(met.__cause__, OSError):  # down to what the last attempt to connect has met
+            met = met.__cause__
+        reason = f"{type(met).__name__}: {met}".splitlines()[0].rstrip(": ")
         raise PlisseError(f"no Dask scheduler answers at {scheduler} ({reason}); start one with `dask scheduler`, or leave "
                           "--scheduler out to work on this machine") from None
     found = Crew(client)
@@ -124,17 +150,17 @@ def crew(scheduler: str | None = None, workers: int | None = None) -> Iterator[C
     finally:
         found.end()
         with suppress(OSError, TimeoutError):  # a scheduler that is gone need not be left
-            client.close()
+            client.close(timeout=CLOSE_SECONDS)
 
 
 async def _asked(distributed, address: str) -> None:
     """Wait for a scheduler to say who it is; a client would wait forever for other servers."""
-    async with asyncio.timeout(ANSWER_SECONDS), distributed.core.rpc(address, timeout=ANSWER_SECONDS) as server:
+    async with asyncio.timeout(ANSWER_SECONDS), distributed.core.rpc(address, timeout=CONNECT_SECONDS) as server:
         await server.identity()
 
 
 @contextmanager
-def _local(distributed, workers: int | None) -> Iterator[Crew]:
+def _local(distributed, workers: int | None, designs: int) -> Iterator[Crew]:
     import dask
     from dask.system import CPU_COUNT
 
@@ -143,7 +169,7 @@ def _local(distributed, workers: int | None) -> Iterator[Crew]:
         cluster = distributed.LocalCluster(n_workers=0, threads_per_worker=1, dashboard_address=":0", protocol="tcp",
                                            silence_logs=logging.CRITICAL, scheduler_kwargs={"allowed_failures": 0})
     with cluster, distributed.Client(cluster, set_as_default=False) as client:
-        found = Crew(client, cluster.scheduler_address, workers or CPU_COUNT)
+        found = Crew(client, cluster.scheduler_address, min(workers or CPU_COUNT, designs))
         try:
             yield found
         finally:

@@ -11,14 +11,16 @@ import threading
 from collections import deque
 from contextlib import suppress
 from time import monotonic
+from typing import IO
 
 from msgspec.structs import replace
 
+from plisse.study.child import READY
 from plisse.study.outcome import DIED, Outcome
 from plisse.study.plan import Limits
 from plisse.threads import child_environment
 
-__all__ = ["Workshop", "made", "prepare", "process_options"]
+__all__ = ["Workshop", "last_words", "made", "prepare", "process_options"]
 
 LOOK_EVERY = 0.05  # seconds between looks at a process's memory
 START_SECONDS = 120.0
@@ -58,6 +60,13 @@ def process_options() -> dict:
     return options | {"start_new_session": True}
 
 
+def last_words(errors: IO[bytes]) -> str:
+    """The last line that a process has written, empty where it has written nothing."""
+    errors.seek(0)
+    lines = errors.read()[-2000:].decode(errors="replace").strip().splitlines()
+    return lines[-1].strip() if lines else ""
+
+
 class Workshop:
     """A process that makes designs, and what is needed to end it in time."""
 
@@ -84,8 +93,9 @@ class Workshop:
         """The outcome of a recipe; the process is ended where it takes too long or too much."""
         if self._waiting_for_start:
             self._waiting_for_start = False
-            if self._answered(START_SECONDS) is None:
-                return self._ended(DIED, "the process for designs does not start")
+            if (answer := self._answered(START_SECONDS)) != READY:
+                ended = "" if answer is None else ": it ended"
+                return self._ended(DIED, f"the process for designs does not start{ended}")
         try:
             assert self._process.stdin is not None
             pickle.dump((recipe, limits.bytes, forecast), self._process.stdin)
@@ -138,14 +148,11 @@ class Workshop:
     def _ended(self, status: str, reason: str, seconds: float = 0.0) -> Outcome:
         if status == DIED:
             with suppress(subprocess.TimeoutExpired):
-                reason += f" with code {self._process.wait(timeout=2)}" + self._last_words()
+                reason += f" with code {self._process.wait(timeout=2)}"
+            if said := last_words(self._errors):
+                reason += f": {said}"
         self.close()
         return Outcome(status=status, reasons=[reason], seconds=seconds)
-
-    def _last_words(self) -> str:
-        self._errors.seek(0)
-        lines = self._errors.read()[-2000:].decode(errors="replace").strip().splitlines()
-        return f": {lines[-1].strip()}" if lines else ""
 
     def _answered(self, seconds: float) -> object | None:
         """The next answer, None if there is none in time, False when there will be none any more."""

@@ -11,6 +11,7 @@ from plisse.errors import InvalidDesign
 from plisse.io.mistakes import refuse_non_finite
 from plisse.recipe.fields import Strict
 from plisse.shipped import shipped_design, shipped_names
+from plisse.study.wording import expected, hint
 
 __all__ = ["Limits", "Map", "Plan", "read_plan"]
 
@@ -69,6 +70,8 @@ def read_plan(source: str | Path | dict) -> Plan:
     folder = Path(source).parent.absolute() if not isinstance(source, dict) else Path.cwd()
     data = source if isinstance(source, dict) else _toml(Path(source), "a study file")
     refuse_non_finite(data)
+    if "folder" in data:
+        raise InvalidDesign(_said("unknown field `folder`"))
     try:
         plan = msgspec.convert({**data, "folder": str(folder)}, Plan)
     except msgspec.ValidationError as error:
@@ -110,14 +113,5 @@ def _said(message: str) -> str:
         key = ".".join(part for part in (path, what.split("`")[1]) if part)
         verb = "is missing" if "missing" in what else "is not a key of a study"
         return f"{key} {verb}; known here: {', '.join(known)}"
-    field = next((f for f in msgspec.structs.fields(struct) if f.name == path.split(".")[-1].split("[")[0]), None)
-    hint = _description(msgspec.inspect.type_info(field.type)) if field else ""
-    return f"{path}: {what[0].lower()}{what[1:]}" + (f"; give {hint}" if hint else "")
-
-
-def _description(info: msgspec.inspect.Type) -> str:
-    if isinstance(info, msgspec.inspect.Metadata):
-        return (info.extra_json_schema or {}).get("description", "")
-    if isinstance(info, msgspec.inspect.UnionType):
-        return next((text for text in map(_description, info.types) if text), "")
-    return ""
+    wanted = hint(struct, path.split(".")[-1].split("[")[0])
+    return f"{path}: {expected(what)}" + (f"; give {wanted}" if wanted else "")

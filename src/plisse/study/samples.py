@@ -9,12 +9,14 @@ import msgspec
 
 from plisse.errors import InvalidDesign, PlisseError
 from plisse.io.designs import design_from_dict
-from plisse.study.plan import Plan
-from plisse.study.values import assignments
+from plisse.study.plan import Map, Plan
+from plisse.study.ranges import MOST
+from plisse.study.values import assignments, read_block
 
 __all__ = ["Sample", "samples", "value_at"]
 
 FILES = ("file", "edited_file")
+PANELS = 24
 
 
 class Sample(msgspec.Struct, frozen=True):
@@ -29,10 +31,18 @@ class Sample(msgspec.Struct, frozen=True):
 def samples(plan: Plan) -> list[Sample]:
     """All designs of a plan in order, equal ones once.
 
-    Raises InvalidDesign where not a single one is possible, with the reason of the first, and for a map over no key.
+    Raises InvalidDesign where not a single one is possible, with the reason of the first, where there are too many, and for
+    a map that cannot be drawn.
     """
+    _content.cache_clear()  # meshes may have changed since
+    blocks = [read_block(block) for block in plan.blocks]
+    count = sum(block.designs for block in blocks)
+    if count > MOST:
+        raise InvalidDesign(f"vary asks for {count:,} designs; a study holds up to {MOST:,}")
+    for key in {key: None for block in blocks for key in block.varied if "." not in key}:
+        _require_section(plan, key)
     found: dict[str, Sample] = {}
-    for block in plan.blocks:
+    for block in blocks:
         for parameters in assignments(block):
             sample = _sample(plan, parameters)
             found.setdefault(sample.key, sample)
@@ -40,10 +50,8 @@ def samples(plan: Plan) -> list[Sample]:
         raise InvalidDesign("vary is empty; add a key of a design with its values, for example pattern.theta = [20, 30]")
     if all(sample.mistake for sample in found.values()):
         raise InvalidDesign(f"no design of this study is possible; the first: {next(iter(found.values())).mistake}")
-    for key in () if plan.map is None else (*plan.map.keys, plan.map.panels):
-        if key is not None and all(value_at(sample.recipe, key) is None for sample in found.values()):
-            raise InvalidDesign(f"map names {key}, a key that no design of this study has; give one of "
-                                f"{', '.join(next(iter(found.values())).parameters)}")
+    if plan.map is not None:
+        _check_map(plan.map, list(found.values()))
     return list(found.values())
 
 
@@ -53,6 +61,32 @@ def value_at(recipe: dict, key: str) -> object:
     for name in key.split("."):
         place = place.get(name) if isinstance(place, dict) else None
     return place
+
+
+def _check_map(axes: Map, found: list[Sample]) -> None:
+    keys = [*axes.keys, axes.panels] if axes.panels is not None else axes.keys
+    for number, key in enumerate(keys):
+        if key in keys[:number]:
+            raise InvalidDesign(f"map names {key} twice; give different keys")
+        if all(value_at(sample.recipe, key) is None for sample in found):
+            raise InvalidDesign(f"map names {key}, a key that no design of this study has; give one of "
+                                f"{', '.join(found[0].parameters)}")
+    count = 1 if axes.panels is None else len({repr(value_at(sample.recipe, axes.panels)) for sample in found})
+    if count > PANELS:
+        raise InvalidDesign(f"map.panels = {axes.panels} has {count} values, and a map up to {PANELS} panels; give another "
+                            "key, or take map.panels away")
+
+
+def _require_section(plan: Plan, key: str) -> None:
+    """Nothing; raises InvalidDesign where one section of the base design has the key, and none is named."""
+    assert isinstance(plan.base, dict)
+    try:
+        base = design_from_dict(plan.base, base=plan.folder).to_dict()
+    except PlisseError:
+        return
+    sections = [name for name, section in base.items() if isinstance(section, dict) and key in section]
+    if key not in base and len(sections) == 1:
+        raise InvalidDesign(f"vary.{key} names no section of a design; write {sections[0]}.{key}")
 
 
 def _sample(plan: Plan, parameters: dict) -> Sample:

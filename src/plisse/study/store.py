@@ -51,7 +51,7 @@ class Store:
     """
 
     def __init__(self, directory: Path, *, reading: bool = False):
-        self._file = directory / STORE
+        self.directory, self._file = directory, directory / STORE
         with self._sentence():
             if reading or self._holds_tables():
                 self._base = self._opened_to_read()
@@ -90,7 +90,10 @@ class Store:
         self._base.close()
 
     def plan(self, samples: Iterable[Sample], *, again: Iterable[str] = ()) -> None:
-        """Take in new designs; those done are kept, those that were under way or end as one of `again` wait once more."""
+        """Take in new designs; those done are kept, those that were under way or end as one of `again` wait once more.
+
+        Which values vary is what these samples say, for designs that were there already as well.
+        """
         samples = list(samples)
         with self._together() as base:
             base.execute("UPDATE designs SET status = ? WHERE status = ?", (WAITING, RUNNING))
@@ -101,16 +104,18 @@ class Store:
                              "AND key IN (SELECT key FROM planned)", ((WAITING, status) for status in again))
             base.execute("DROP TABLE planned")
             base.executemany("INSERT INTO designs (key, parameters, recipe, status, reasons) VALUES (?, ?, ?, ?, ?) "
-                             "ON CONFLICT DO NOTHING", map(_planned, samples))
+                             "ON CONFLICT (key) DO UPDATE SET parameters = excluded.parameters", map(_planned, samples))
 
     def waiting(self) -> list[tuple[str, dict]]:
         """Keys and recipes of designs without outcome, in the order of the plan."""
-        rows = self._base.execute("SELECT key, recipe FROM designs WHERE status = ? ORDER BY rowid", (WAITING,))
-        return [(key, msgspec.json.decode(recipe)) for key, recipe in rows]
+        with self._sentence():
+            rows = self._base.execute("SELECT key, recipe FROM designs WHERE status = ? ORDER BY rowid", (WAITING,))
+            return [(key, msgspec.json.decode(recipe)) for key, recipe in rows]
 
     def begun(self, key: str) -> None:
         """Count one more attempt at a design."""
-        self._base.execute("UPDATE designs SET status = ?, attempts = attempts + 1 WHERE key = ?", (RUNNING, key))
+        with self._sentence():
+            self._base.execute("UPDATE designs SET status = ?, attempts = attempts + 1 WHERE key = ?", (RUNNING, key))
 
     def done(self, key: str, outcome: Outcome) -> None:
         """Commit the outcome of a design."""
@@ -130,16 +135,18 @@ class Store:
             found = self._base.execute(f"SELECT {', '.join((*FACTS, *COLUMNS))} FROM designs ORDER BY rowid")
             return [_row(values) for values in found]
 
-    def counts(self) -> dict[str, int]:
-        """How many designs have which status."""
-        return dict(self._base.execute("SELECT status, count(*) FROM designs GROUP BY status ORDER BY count(*) DESC"))
+    def statuses(self) -> dict[str, str]:
+        """The status of every design by its key."""
+        with self._sentence():
+            return dict(self._base.execute("SELECT key, status FROM designs"))
 
     def pictures(self, keys: Iterable[str]) -> dict[str, bytes]:
         """PNG of those designs that have one."""
         found = {}
-        for key in keys:
-            for (png,) in self._base.execute("SELECT png FROM pictures WHERE key = ?", (key,)):
-                found[key] = png
+        with self._sentence():
+            for key in keys:
+                for (png,) in self._base.execute("SELECT png FROM pictures WHERE key = ?", (key,)):
+                    found[key] = png
         return found
 
     @contextmanager
@@ -159,6 +166,9 @@ class Store:
         try:
             yield
         except sqlite3.Error as error:
+            if _is_busy(error):
+                raise PlisseError(f"another program works with {self._file}; wait until it is done or close it, then run "
+                                  "the same command again") from None
             raise PlisseError(f"{self._file} is not the store of a study, or cannot be read or written ({error}); choose "
                               "another directory with -o") from None
 
@@ -167,7 +177,8 @@ class Store:
 def locked(directory: Path) -> Iterator[None]:
     """Nobody else runs a study in this directory meanwhile; raises PlisseError where somebody does.
 
-    The lock is SQLite's on an empty file: it works on every system and goes with the process that holds it.
+    The lock is SQLite's on an empty file: it works on every system and goes with the process that holds it. Where no study
+    has begun, the file goes too.
     """
     lock = None
     try:
@@ -176,13 +187,22 @@ def locked(directory: Path) -> Iterator[None]:
     except sqlite3.Error as error:
         if lock is not None:
             lock.close()
-        if getattr(error, "sqlite_errorcode", None) == sqlite3.SQLITE_BUSY:
+        if _is_busy(error):
             raise PlisseError(f"another study works in {directory}; wait until it is done, or choose another directory with "
                               "-o") from None
         raise PlisseError(f"{directory / LOCK} cannot be locked ({error}); remove it, or choose another directory with "
                           "-o") from None
-    with closing(lock):
-        yield
+    try:
+        with closing(lock):
+            yield
+    finally:
+        if not (directory / STORE).exists():
+            (directory / LOCK).unlink(missing_ok=True)
+
+
+def _is_busy(error: sqlite3.Error) -> bool:
+    """Whether somebody else holds the file."""
+    return getattr(error, "sqlite_errorcode", 0) & 0xFF in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED)
 
 
 def _planned(sample: Sample) -> tuple[str, ...]:

@@ -2,23 +2,21 @@
 
 import csv
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from numbers import Integral
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from plisse.draw.contact_sheet import MOST, Frame, write_contact_sheet
 from plisse.draw.region import Place, places, write_region
-from plisse.errors import PlisseError
+from plisse.errors import InvalidDesign, PlisseError
 from plisse.io.atomic import require_writable, written
 from plisse.study.best import best, described, write_best
+from plisse.study.crew import Crew, crew, require_address
 from plisse.study.outcome import OUTCOMES
 from plisse.study.plan import Map, Plan, read_plan
 from plisse.study.samples import Sample, samples, value_at
-from plisse.study.store import COLUMNS, LOCK, STORE, Row, Store, locked
-
-if TYPE_CHECKING:
-    from plisse.study.crew import Crew
+from plisse.study.store import COLUMNS, STORE, Row, Store, locked
 
 __all__ = ["FILES", "Row", "Study", "run"]
 
@@ -40,17 +38,17 @@ class Study:
 
     @classmethod
     def load(cls, directory: str | Path, keys: Iterable[str] | None = None) -> "Study":
-        """The study in a directory, finished or not, of the designs with these keys or of all; nothing is written.
+        """The study in a directory, finished or not, of the designs with these keys in their order, or of all.
 
-        Raises PlisseError where there is none.
+        Nothing is written. Raises PlisseError where there is none.
         """
         directory = Path(directory)
         if not (directory / STORE).is_file():
             raise PlisseError(f"there is no study in {directory} ({STORE} is missing); run `plisse study STUDY.toml` first")
         with Store(directory, reading=True) as store:
             rows = store.rows()
-        wanted = {row.key for row in rows} if keys is None else set(keys)
-        own = [row for row in rows if row.key in wanted]
+        by_key = {row.key: row for row in rows}
+        own = rows if keys is None else [by_key[key] for key in keys if key in by_key]
         return cls(directory, own, len(rows) - len(own))
 
     @property
@@ -97,11 +95,12 @@ class Study:
                          outcomes=OUTCOMES, title=self.directory.resolve().name)
 
     def write_contact_sheet(self, path: str | Path, *, by: str = "regularity") -> None:
-        """Write small pictures of all designs, or of the best where there are too many for a page."""
+        """Write small pictures of all designs; of too many for a page the best ones, or the first where none is exact."""
         shown, title = self.rows, f"{self.directory.resolve().name}: {len(self.rows)} designs"
         if len(shown) > MOST:
-            shown = self.best(MOST, by=by)
-            title += f", the best {len(shown)} by {by.replace('_', ' ')}"
+            exact = self.best(MOST, by=by)
+            shown = exact or shown[:MOST]
+            title += f", the best {len(shown)} by {by.replace('_', ' ')}" if exact else f", the first {len(shown)}"
         with Store(self.directory, reading=True) as store:
             pictures = store.pictures(row.key for row in shown)
         frames = [Frame(pictures.get(row.key), described(row), _verdict(row), row.status) for row in shown]
@@ -118,6 +117,10 @@ def run(source: str | Path | dict, directory: str | Path | None = None, *, sched
     memory or failed. Raises InvalidDesign for studies that cannot be, MissingExtra without Dask, PlisseError where another
     study works in the directory.
     """
+    if workers is not None and not (isinstance(workers, Integral) and workers >= 1):
+        raise InvalidDesign(f"workers is {workers!r}; give a whole number from 1")
+    if scheduler is not None:
+        require_address(scheduler)
     plan = read_plan(source)
     if directory is None:
         directory = Path("study") if isinstance(source, dict) else Path(Path(source).stem)
@@ -125,43 +128,50 @@ def run(source: str | Path | dict, directory: str | Path | None = None, *, sched
     planned = samples(plan)
     require_writable(directory, FILES)
     again = AGAIN if retry else ()
-    # workers first: where there are none, nothing is left behind
-    with _workers(_waiting(directory, planned, again), scheduler, workers, progress) as found:
-        directory.mkdir(parents=True, exist_ok=True)
-        with locked(directory):
-            _make(plan, planned, directory, again, found, progress)
-            study = Study.load(directory, [sample.key for sample in planned])
-            _write_files(study, plan)
+    # workers before the store: where there are none, nothing is left behind
+    with _held(directory), _workers(_waiting(directory, planned, again), scheduler, workers, progress) as found:
+        _make(plan, planned, directory, again, found, progress)
+        study = Study.load(directory, [sample.key for sample in planned])
+        _write_files(study, plan)
     return study
 
 
-def _waiting(directory: Path, planned: list[Sample], again: Iterable[str]) -> int:
-    """How many designs are still to be made; raises PlisseError where somebody makes them now."""
-    done = set()
-    if (directory / LOCK).exists():
+@contextmanager
+def _held(directory: Path) -> Iterator[None]:
+    """Nobody else works in the directory; it is made where there is none, and goes again where it stays empty."""
+    fresh = [place for place in (directory, *directory.parents) if not place.exists()]
+    directory.mkdir(parents=True, exist_ok=True)
+    try:
         with locked(directory):
-            pass
+            yield
+    finally:
+        with suppress(OSError):  # there is something in it
+            for place in fresh:
+                place.rmdir()
+
+
+def _waiting(directory: Path, planned: list[Sample], again: Iterable[str]) -> int:
+    """How many designs are still to be made."""
+    done = set()
     if (directory / STORE).is_file() and (directory / STORE).stat().st_size:
         with Store(directory) as store:
-            done = {row.key for row in store.rows() if row.status in OUTCOMES and row.status not in again}
+            done = {key for key, status in store.statuses().items() if status in OUTCOMES and status not in again}
     return sum(sample.mistake is None and sample.key not in done for sample in planned)
 
 
 @contextmanager
-def _workers(waiting: int, scheduler: str | None, count: int | None, progress: Progress | None) -> Iterator["Crew | None"]:
+def _workers(waiting: int, scheduler: str | None, count: int | None, progress: Progress | None) -> Iterator[Crew | None]:
     """Workers for designs that wait; nobody where there are none."""
     if not waiting:
         yield None
         return
-    from plisse.study.crew import crew
-
     if progress:
         progress(f"{'starting workers' if scheduler is None else f'asking {scheduler}'} for {waiting} designs", 0.0)
-    with crew(scheduler, None if count is None else min(count, waiting)) as found:
+    with crew(scheduler, count, designs=waiting) as found:
         yield found
 
 
-def _make(plan: Plan, planned: list[Sample], directory: Path, again: Iterable[str], crew: "Crew | None",
+def _make(plan: Plan, planned: list[Sample], directory: Path, again: Iterable[str], crew: Crew | None,
           progress: Progress | None) -> None:
     from plisse.study.sweep import sweep
 
@@ -175,7 +185,9 @@ def _write_files(study: Study, plan: Plan) -> None:
     study.write_csv(study.directory / "results.csv")
     study.write_contact_sheet(study.directory / "contact-sheet.png", by=plan.by)
     axes = plan.map or _first_keys(study.rows)
-    if axes is not None:
+    if axes is None:
+        (study.directory / "map.png").unlink(missing_ok=True)  # of an earlier plan
+    else:
         study.write_map(study.directory / "map.png", axes)
 
 

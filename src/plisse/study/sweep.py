@@ -25,21 +25,22 @@ Progress = Callable[[str, float], None]
 def sweep(crew: Crew, store: Store, limits: Limits, *, forecast: bool = False, progress: Progress | None = None) -> None:
     """Make all designs that wait in the store; every outcome is committed as soon as it is known.
 
-    A design whose worker dies is tried again, three times in all. Raises PlisseError where workers have no plisse.
+    A design whose worker dies is tried again, three times in all. Raises PlisseError where workers have no plisse
+    or the scheduler goes away.
     """
-    post = Post(crew.client, limits, forecast)
-    work = _Work(crew, store, post)
-    while not work.is_over:
-        crew.tend()
-        work.hand_out()
-        ended = [batch for batch in work.batches if batch.future.done()]  # now: all their outcomes have come
-        patience = 0.0 if ended else LOOK_EVERY if work.batches else NO_WORKER
-        for key, outcome in post.outcomes(patience):
-            work.take_in(key, outcome)
-        for batch in ended:
-            work.end(batch)
-        if progress:
-            progress(crew.missing() or work.said, work.done / max(work.total, 1))
+    with crew.reached(f"what is done is kept in {store.directory}"), Post(crew.client, limits, forecast) as post:
+        work = _Work(crew, store, post)
+        while not work.is_over:
+            crew.tend()
+            work.hand_out()
+            ended = [batch for batch in work.batches if batch.future.done()]  # now: all their outcomes have come
+            patience = 0.0 if ended else LOOK_EVERY if work.batches else NO_WORKER
+            for key, outcome in post.outcomes(patience):
+                work.take_in(key, outcome)
+            for batch in ended:
+                work.end(batch)
+            if progress:
+                progress(crew.missing() or work.said, work.done / max(work.total, 1))
 
 
 class _Work:
