@@ -80,6 +80,48 @@ def test_what_is_solid_has_no_colours_and_the_other_way_round(stage):
     assert stage.dress.chosen.colour == "opening"
 
 
+@pytest.mark.parametrize("leave", [lambda dress: dress.solidify("", 2.0), lambda dress: dress.paint("")])
+def test_what_is_not_chosen_any_more_goes_without_the_state_of_the_motion(stage, leave):
+    stage.dress.pose(60.0)
+    leave(stage.dress)
+    assert stage.dress.chosen == Look(60.0)
+
+
+def test_another_thickness_keeps_all_else():
+    dress = Stage().dress
+    dress.solidify("plates", 1.0)
+    dress.pose(60.0)
+    dress.thicken(2.0)
+    assert dress.chosen == Look(60.0, ("plates", 2.0))
+
+
+def test_a_state_of_the_motion_is_seen_neither_solid_nor_painted():
+    assert Look(60.0, ("offset", 2.0)).visible == Look(60.0, colour="opening").visible == Look(60.0)
+    assert Look(solid=("offset", 2.0)).visible == Look(solid=("offset", 2.0))
+
+
+def test_a_colour_map_comes_again_after_a_design_without_a_structure(stage):
+    stage.dress.paint("opening")
+    bare, request = Found(RESULT.report, False), Solve(RECIPE, colour="opening")
+    stage.dress.put_on_new(bare, request)
+    stage.dress.complete(bare, request)
+    assert stage.dress.chosen.colour == "opening"
+    stage.dress.put_on_new(replace(FOUND, tint="opening"), request)
+    assert stage.scale == "opening"
+
+
+def test_a_state_of_the_motion_is_not_carried_over_but_one_chosen_for_the_new_structure_is_shown(stage):
+    for late, percent in ((False, 100.0), (True, 60.0)):
+        stage.dress.pose(60.0)
+        stage.dress.carry()
+        if late:
+            stage.dress.pose(60.0)
+        stage.dress.put_on_new(FOUND, Solve(RECIPE))
+        stage.dress.complete(FOUND, Solve(RECIPE))
+        assert stage.dress.chosen.percent == percent
+    assert stage.done[-1] == Pose(RECIPE, 60.0)
+
+
 def test_a_state_of_the_motion_goes_before_colours_which_come_again_at_its_middle(stage):
     stage.dress.paint("opening")
     stage.dress.pose(50.0)

@@ -1,12 +1,14 @@
 """The desk: what is on screen and its TOML are one, and every step can be taken back."""
 
 import tomllib
+from pathlib import Path
 
 import pytest
 
 from plisse.errors import InvalidDesign, InvalidMesh
 from plisse.io.designs import design_from_dict, read_design
 from plisse.shipped import shipped_design, shipped_names
+from plisse.studio import shelf
 from plisse.studio.model import Desk
 from plisse.studio.requests import Mesh
 from plisse.studio.surface_panel import kept_guide, shape_of
@@ -116,7 +118,8 @@ def test_clicked_points_follow_the_design_back():
 
 
 @pytest.mark.parametrize("text", ['[curve]\nkind="points"\nfile="/etc/passwd"', '[surface]\nfile="/etc/passwd"',
-                                  '[surface]\nguide_file="/etc/passwd"', '[surface]\nedited_file="../secret.obj"'])
+                                  '[surface]\nfile=[1]', '[surface]\nguide_file="/etc/passwd"',
+                                  '[surface]\nedited_file="../secret.obj"'])
 def test_a_text_cannot_name_files(desk, text):
     with pytest.raises(InvalidDesign, match="names a file"):
         desk.read(text + '\n[pattern]\ncreases=5\nwidth=5\namplitude=2\n')
@@ -142,6 +145,65 @@ def test_an_uploaded_mesh_is_named_without_its_place_and_lies_under_a_name_of_ou
     desk.close()
     with pytest.raises(InvalidDesign):
         desk.read('[surface]\nfile = "roof.obj"')
+
+
+def _upload(desk, name, content):
+    """The place of an uploaded mesh, with pleats over it on the desk."""
+    desk.read(f'[surface]\nfile = "{desk.shelf.put(name, content)}"\n')
+    return desk.solvable.surface.file
+
+
+def test_every_step_back_has_its_mesh(desk):
+    places = [_upload(desk, f"m{number}.obj", b"v %d 0 0\n" % number) for number in range(30)]
+    for number in reversed(range(30)):
+        assert desk.solvable.surface.file == places[number]
+        assert Path(places[number]).read_bytes() == b"v %d 0 0\n" % number
+        desk.undo()
+    assert not desk.can_undo
+    desk.close()
+
+
+def test_meshes_of_one_name_stay_apart_and_the_same_mesh_is_kept_once(desk):
+    first, second = _upload(desk, "roof.obj", b"v 0 0 0\n"), _upload(desk, "roof.obj", b"v 1 0 0\n")
+    assert 'file = "roof-2.obj"' in desk.toml
+    desk.undo()
+    assert 'file = "roof.obj"' in desk.toml
+    assert desk.solvable.surface.file == first
+    desk.redo()
+    assert desk.solvable.surface.file == second
+    assert [Path(path).read_bytes() for path in (first, second)] == [b"v 0 0 0\n", b"v 1 0 0\n"]
+    assert _upload(desk, "roof.obj", b"v 0 0 0\n") == first
+    desk.close()
+
+
+def test_a_mesh_that_became_no_design_leaves_its_name_and_its_room_to_the_next(desk):
+    refused = Path(desk.shelf.path(desk.shelf.put("roof.obj", b"no mesh at all")))
+    place = _upload(desk, "roof.obj", b"v 0 0 0\n")
+    assert 'file = "roof.obj"' in desk.toml
+    assert not refused.exists()
+    assert Path(place).exists()
+    desk.close()
+
+
+def test_more_meshes_than_a_tab_keeps_are_refused_and_all_steps_stay(desk, monkeypatch):
+    monkeypatch.setattr(shelf, "MOST_BYTES", 20)
+    places = [_upload(desk, f"m{number}.obj", b"v %d 0 0\n" % number) for number in range(2)]
+    with pytest.raises(InvalidMesh, match="new tab"):
+        desk.shelf.put("m2.obj", b"v 2 0 0\n")
+    assert desk.solvable.surface.file == places[1]
+    desk.undo()
+    assert desk.solvable.surface.file == places[0]
+    desk.close()
+
+
+def test_meshes_of_one_name_from_two_folders_of_the_disk_stay_apart(desk, tmp_path):
+    for folder in ("a", "b"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "roof.obj").write_text("v 0 0 0\n")
+        desk.open(design_from_dict({"surface": {"file": str(tmp_path / folder / "roof.obj")}}), folder)
+    assert desk.solvable.surface.file == str(tmp_path / "b" / "roof.obj")
+    desk.undo()
+    assert desk.solvable.surface.file == str(tmp_path / "a" / "roof.obj")
 
 
 @pytest.mark.parametrize("name", ["roof.py", "roof", "..", "roof.obj/", ""])

@@ -10,7 +10,8 @@ from plisse.io.designs import design_from_dict
 from plisse.studio.look_panel import legend_html, scale_html
 from plisse.studio.motion_panel import marks_of, why_fixed
 from plisse.studio.requests import Found
-from plisse.studio.status import broken, refused, remark, size_text, solved, working
+from plisse.studio.standing import Standing
+from plisse.studio.status import broken, remark, searching, size_text, solved, working
 from plisse.studio.view import Tint, folded_view
 from plisse.studio.words import spoken
 from plisse.transform.collisions import FreeRange
@@ -21,6 +22,11 @@ FOUND = Found(RESULT.report, False)
 
 def words(status):
     return re.sub(r"<[^>]*>", " ", status.html)
+
+
+def refused(sentence, **state):
+    """What stands in the status when something was refused in a state of the design."""
+    return Standing(**state, refusal=sentence).status(False, 100.0, None)
 
 
 def test_the_sentences_are_those_of_the_report():
@@ -37,7 +43,7 @@ def test_sentences_call_keys_as_their_controls_are_called():
         "“width” is 3; lower “inclination θ”, or set “folds flat (principal)” = false")
     assert spoken("curve.points[0] and curve.points[1] are the same") == "control point 1 and control point 2 are the same"
     assert spoken("solve.weights are all 0") == "solve.weights are all 0"
-    assert "“amplitude” is 9" in words(refused("pattern.amplitude is 9", FOUND, "cones"))
+    assert "“amplitude” is 9" in words(refused("pattern.amplitude is 9", found=FOUND))
 
 
 def test_sizes_have_three_digits_and_a_unit_that_fits():
@@ -54,11 +60,39 @@ def test_drafts_are_never_exact():
 
 
 def test_what_was_refused_stands_above_the_numbers_of_what_is_still_there():
-    said = refused("no <such> thing", FOUND, "cones")
+    said = refused("no <such> thing", found=FOUND, title="cones")
     assert words(said).index("no &lt;such&gt; thing") < words(said).index("planarity")
     assert "exact" in words(said)
     assert "not done" in said.brief
-    assert "not done" in words(refused("nothing yet", None, "cones"))
+    assert "not done" in words(refused("nothing yet"))
+
+
+def test_a_refusal_hides_neither_why_a_design_broke_nor_that_it_is_being_solved():
+    for state, held in (({"breakdown": "the solver died"}, "the solver died"), ({"found": FOUND, "title": "cones"}, "cones"),
+                        ({"found": FOUND, "stage": ("relax", 0.5)}, "working"), ({"search": ("refine", 0.89)}, "89 %")):
+        said = words(refused("no such thing", **state))
+        assert said.index("no such thing") < said.index(held)
+    assert "exact" not in words(refused("no such thing", found=FOUND, stage=("relax", 0.5)))
+
+
+def test_a_design_after_one_that_broke_is_said_to_be_solved_and_not_to_be_broken():
+    said = words(Standing(breakdown="the solver died", stage=("relax", 0.5)).status(False, 100.0, None))
+    assert "working" in said
+    assert "died" not in said
+
+
+def test_what_is_pale_and_a_pose_that_collides_are_said_together_with_what_is_refused():
+    standing = Standing(breakdown="the solver died", seen=FOUND, refusal="no such thing")
+    assert "Pale is what was there before" in words(standing.status(True, 100.0, None))
+    assert "planarity" in words(standing.status(True, 100.0, None))
+    standing = Standing(FOUND, "cones", refusal="no such thing")
+    assert "colliding at this pose" in words(standing.status(False, 180.0, FreeRange(5.0, 175.0)))
+
+
+def test_a_search_for_layouts_leaves_the_state_of_the_design_below_it():
+    assert "searching for layouts: refine (89 %)" in searching("refine", 0.89)
+    said = words(Standing(FOUND, "cones", search=("refine", 0.89)).status(False, 100.0, None))
+    assert said.index("89 %") < said.index("exact")
 
 
 def test_a_design_that_broke_is_not_called_exact():

@@ -24,7 +24,7 @@ class Choice:
 
 
 def candidates_of(recipe: SurfaceDesign, count: int, progress: Progress) -> list[Choice]:
-    """At most `count` layouts over the surface, the best first, each as good as it was made.
+    """At most `count` layouts over the surface, the best first by `Candidate.rank`, each as good as it was made.
 
     Raises InvalidDesign for surfaces whose creases start from a guide or a point.
     """
@@ -40,8 +40,10 @@ def candidates_of(recipe: SurfaceDesign, count: int, progress: Progress) -> list
 
 
 def _said(candidate: Candidate) -> str:
-    seams = len(candidate.seams)
-    return f"{100 * candidate.coverage:.1f} % covered" + (f", {seams} seam{'s' * (seams > 1)}" if seams else "")
+    """What counts most in the order of layouts: coverage, nearness, seams and holes."""
+    counted = ((len(candidate.seams), "seam"), (candidate.holes, "hole"))
+    more = "".join(f", {number} {name}{'s' * (number > 1)}" for number, name in counted if number)
+    return f"{100 * candidate.coverage:.1f} % covered, {candidate.mean_deviation:.2f} amplitudes away{more}"
 
 
 def _changes(candidate: Candidate, surface: GraphSurface | ParametricSurface) -> dict:

@@ -26,6 +26,11 @@ class Look(NamedTuple):
     solid: tuple[str, float] = SHEET
     colour: str = ""
 
+    @property
+    def visible(self) -> Look:
+        """What there is to see of it: a state of the motion is neither solid nor painted."""
+        return self if self.percent == DESIGNED else Look(self.percent)
+
     def request(self, recipe: Recipe) -> Pose | Solid | Colour | None:
         """What has to be asked for; None for plain paper as it was designed, which is there."""
         if self.percent != DESIGNED:
@@ -36,24 +41,36 @@ class Look(NamedTuple):
 
 
 class Dress:
-    """The look that is `chosen`, and the one on screen, to which what is refused goes back."""
+    """The look that is `chosen`, and the one on screen, to which what is refused goes back.
+
+    `is_carried` says that nothing was chosen since a new design came, so that nobody asked for this look of it.
+    """
 
     def __init__(self, scene: Scene, ask: Callable[[Request], None], show_scale: Callable[[Tint | None], None]):
         self._scene, self._ask, self._show_scale = scene, ask, show_scale
         self.chosen = self._on_screen = Look()
         self._asked: Request | None = None
+        self.is_carried = False
 
     def pose(self, percent: float) -> None:
         """Choose a state of the motion."""
-        self.chosen = self.chosen._replace(percent=percent)
+        self._choose(self.chosen._replace(percent=percent))
 
     def solidify(self, kind: str, length: float) -> None:
         """Choose plates or an offset, which have no colours; the sheet for the empty kind."""
-        self.chosen = Look(solid=(kind, length)) if kind else Look(colour=self.chosen.colour)
+        self._choose(Look(solid=(kind, length)) if kind else self.chosen._replace(solid=SHEET))
+
+    def thicken(self, length: float) -> None:
+        """Choose another thickness or distance of plates or an offset."""
+        self._choose(self.chosen._replace(solid=(self.chosen.solid[0], length)))
 
     def paint(self, name: str) -> None:
         """Choose a colour map, which only the sheet has; plain paper for the empty name."""
-        self.chosen = Look(colour=name) if name else Look(solid=self.chosen.solid)
+        self._choose(Look(colour=name) if name else self.chosen._replace(colour=""))
+
+    def carry(self) -> None:
+        """Another design is asked for, to which what is chosen is carried over."""
+        self.is_carried = True
 
     def put_on(self, found: Found | None, recipe: Recipe) -> None:
         """Show what was found as it is chosen, or ask for what that needs; what is pale stays as it is."""
@@ -72,9 +89,11 @@ class Dress:
     def put_on_new(self, found: Found, request: Solve) -> None:
         """Show what was found for the first time, as it was designed, in the colours that were asked for with it.
 
-        Where there is no structure, what was on screen is pale, or gives way to the surface that is to be covered.
+        A state of the motion is not carried over. Where there is no structure, what was on screen is pale, or gives way to
+        the surface that is to be covered.
         """
-        self.pose(DESIGNED)
+        if self.is_carried:
+            self.chosen = self.chosen._replace(percent=DESIGNED)
         if found.folded is None and not (request.framed and found.reference is not None):
             return self.pale()
         self._scene.show(found)
@@ -85,7 +104,7 @@ class Dress:
 
     def complete(self, found: Found, request: Solve) -> None:
         """Go on from what is new to all that is chosen; a colour that it was asked for and does not have is none."""
-        if self.chosen.colour == request.colour and found.tint is None:
+        if found.folded is not None and self.chosen.colour == request.colour and found.tint is None:
             self.chosen = self.chosen._replace(colour="")
         if self.chosen != self._on_screen:
             self.put_on(found, request.recipe)
@@ -108,6 +127,9 @@ class Dress:
     def go_back(self) -> None:
         """Choose what is on screen, for what was asked for is refused."""
         self.chosen, self._asked = self._on_screen, None
+
+    def _choose(self, look: Look) -> None:
+        self.chosen, self.is_carried = look, False
 
     def _has_become(self, look: Look, tint: Tint | None) -> None:
         """This is on screen now, and nothing else is awaited."""

@@ -11,7 +11,6 @@ from plisse.result import Result
 from plisse.studio.child import Answer, Failure, Stage
 from plisse.studio.downloads import KINDS, Order, file_name
 from plisse.studio.requests import Candidates, Fetch, Mesh, Reach, Request, Take
-from plisse.studio.status import working
 from plisse.studio.surface_panel import shape_of
 from plisse.studio.worker import Process, Worker
 
@@ -42,6 +41,7 @@ class Errands:
         """Search for layouts over the surface."""
         recipe = self._tab.desk.solvable
         if isinstance(recipe, SurfaceDesign):
+            self._tab.forget_refusal()
             self._ask(Candidates(recipe, count))
 
     def upload_mesh(self, name: str, content: bytes) -> None:
@@ -57,12 +57,11 @@ class Errands:
 
     def receive(self, request: Request, message: Answer | Failure | Stage) -> None:
         """Take in what became of an errand."""
+        if isinstance(request, Candidates):
+            self._tab.say_search((message.name, message.fraction) if isinstance(message, Stage) else None)
         if isinstance(message, Answer):
             self._take_in(request, message.value)
-        elif isinstance(message, Stage):
-            if isinstance(request, Candidates):
-                self._tab.panels.say(working(message.name, message.fraction, self._tab.found))
-        else:
+        elif isinstance(message, Failure):
             if isinstance(request, Fetch):
                 self._waiting.clear()
             self._tab.refuse(message.sentence)
@@ -87,10 +86,8 @@ class Errands:
                 tab.show_reach(*value)
         elif isinstance(request, Mesh):
             tab.read(f'[surface]\nfile = "{request.name}"\n', request.name.rpartition(".")[0])
-        elif isinstance(request, Candidates):
-            if shape_of(request.recipe) == shape_of(tab.desk.solvable):
-                tab.panels.show_candidates(value)
-            tab.say_found()
+        elif isinstance(request, Candidates) and shape_of(request.recipe) == shape_of(tab.desk.solvable):
+            tab.panels.show_candidates(value)
 
     def _ask(self, request: Request) -> None:
         if self._helper is None:

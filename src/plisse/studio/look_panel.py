@@ -11,6 +11,7 @@ import numpy as np
 from plisse.draw import colours
 from plisse.draw.colour_maps import NAMES
 from plisse.draw.dashes import SHARE
+from plisse.studio.dress import Look
 from plisse.studio.fields import DIGITS
 from plisse.studio.framing import seen_by
 from plisse.studio.view import Tint
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["LookPanel", "legend_html", "scale_html"]
 
 PAPER, SHEET = "paper", "sheet"
+SOLID_HINT = "Of the structure as it was designed; plates and offsets have no colours"
 SWITCHES = (("rulings", "rulings"), ("creases", "creases"), ("sheet", "flat sheet beside"), ("seed", "seed curve"),
             ("reference", "reference surface"))
 LINES = ((colours.MOUNTAIN, False, "mountain"), (colours.VALLEY, True, "valley"), (colours.EDGE, False, "edge"))
@@ -73,10 +75,10 @@ class LookPanel:
             for name, words in SWITCHES:
                 gui.add_checkbox(words, getattr(tab.scene.shown, name)).on_update(self._switched(name))
             self._legend = gui.add_html(legend_html(0.0))
-            self._colours = gui.add_dropdown("colours", (PAPER, *NAMES))
+            self._colours = gui.add_dropdown("colours", (PAPER, *NAMES), hint="Of the structure as it was designed")
             self._scale = gui.add_html("", visible=False)
         with gui.add_folder("Thick"):
-            self._kind = gui.add_dropdown("as", (SHEET, "plates", "offset"), hint="Plates and offsets have no colours")
+            self._kind = gui.add_dropdown("as", (SHEET, "plates", "offset"), hint=SOLID_HINT)
             self._length = gui.add_number("thickness or distance", 1.0, step=0.1)
             self._length.precision = DIGITS
             self._words = gui.add_markdown("", visible=False)
@@ -86,14 +88,19 @@ class LookPanel:
             self._turntable = gui.add_checkbox("turntable", False)
         self._colours.on_update(self._painted)
         self._kind.on_update(self._solidified)
-        self._length.on_update(self._solidified)
+        self._length.on_update(self._thickened)
         self._views.on_click(self._viewed)
         self._turntable.on_update(self._turned)
 
     def refresh(self) -> None:
-        """Bring the legend and the choices of colours and plates to what is chosen."""
+        """Bring the legend and the choices of colours and plates to what is on screen."""
         self._legend.content = legend_html(self._tab.scene.scale_of_sheet)
-        _, (kind, length), colour = self._tab.dress.chosen
+        self.show_chosen()
+
+    def show_chosen(self) -> None:
+        """Bring the choices of colours and plates to what is to be seen of what is chosen."""
+        _, (kind, length), colour = self._look
+        self._colours.disabled = self._kind.disabled = not self._has_structure
         _choose(self._colours, colour or PAPER)
         _choose(self._kind, kind or SHEET)
         if kind and self._length.value != length:
@@ -106,9 +113,19 @@ class LookPanel:
             self._scale.content = scale_html(tint)
 
     @property
+    def _has_structure(self) -> bool:
+        found = self._tab.found
+        return found is not None and found.folded is not None
+
+    @property
+    def _look(self) -> Look:
+        """What is to be seen of what is chosen."""
+        return self._tab.dress.chosen.visible if self._has_structure else Look()
+
+    @property
     def manner(self) -> dict[str, Any]:
         """How what is taken away is made, as `downloads.Order` has it: as it is seen."""
-        percent, (kind, _), colour = self._tab.dress.chosen
+        percent, (kind, _), colour = self._look
         return {"length": float(self._length.value), "camera": seen_by(self._tab.client.camera), "colour": colour,
                 "percent": percent, "solid": kind}
 
@@ -142,6 +159,10 @@ class LookPanel:
     async def _solidified(self, event) -> None:
         if event.client is not None:
             self._tab.solidify("" if self._kind.value == SHEET else self._kind.value, float(self._length.value))
+
+    async def _thickened(self, event) -> None:
+        if event.client is not None:
+            self._tab.thicken(float(self._length.value))
 
     async def _frame(self, _event) -> None:
         self._tab.scene.frame()

@@ -100,6 +100,14 @@
     if (steps || (event.key === "Enter" && !box.matches("textarea"))) take(box);
     if (box.matches(NUMBER) && !steps) event.stopPropagation();
   }, true);
+  // steps back and forth, which viser hears in no input, go from those in which one does not type as from everywhere else
+  document.addEventListener("keydown", (event) => {
+    const { target, code, key, ctrlKey, metaKey, shiftKey } = event;
+    if (!target.matches(`input:not(${TYPED})`) || !(ctrlKey || metaKey) || key.toLowerCase() !== "z") return;
+    event.preventDefault();
+    event.stopPropagation();
+    document.body.dispatchEvent(new KeyboardEvent("keydown", { code, key, ctrlKey, metaKey, shiftKey, bubbles: true }));
+  }, true);
   document.addEventListener("focusout", (event) => {
     if (!event.target.matches(TYPED)) return;
     take(event.target);

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Panels"]
 
-LONGEST_LABEL = 60
+NAME, LONGEST_LABEL = "plisse studio", 60
 
 
 class Panels:
@@ -33,8 +33,9 @@ class Panels:
 
     def __init__(self, tab: Tab):
         self._tab, gui = tab, tab.client.gui
-        self._narrow = is_narrow(tab.client.camera)
-        self._status = gui.add_html("") if self._narrow else self._status_above()
+        self._brief = self._label = ""
+        self._status = gui.add_html("") if is_narrow(tab.client.camera) else self._status_above()
+        tab.client.camera.on_update(self._resized)
         gui.add_button("a note was said", icon="message").on_click(self._noted)  # which the page does, and nobody sees
         self._undo = gui.add_button("undo", icon="arrow-back-up", disabled=True)
         self._redo = gui.add_button("redo", icon="arrow-forward-up", disabled=True)
@@ -88,18 +89,32 @@ class Panels:
     def say(self, status: Status) -> None:
         """Show a status."""
         self._status.content = status.html
-        if self._narrow:
-            self._tab.client.gui.set_panel_label(status.brief[:LONGEST_LABEL])
+        self._brief = status.brief[:LONGEST_LABEL]
+        self._show_label()
+
+    async def _resized(self, _camera) -> None:
+        self._show_label()
+
+    def _show_label(self) -> None:
+        """Say the status in a few words on the bar of a narrow window, the name on that of a wide one."""
+        label = self._brief if is_narrow(self._tab.client.camera) else NAME
+        if label != self._label:
+            self._label = label
+            self._tab.client.gui.set_panel_label(label)
 
     def note(self, words: str) -> None:
         """Show a passing message."""
-        self._tab.client.add_notification("plisse studio", words, auto_close_seconds=4.0)
+        self._tab.client.add_notification(NAME, words, auto_close_seconds=4.0)
 
     def refresh(self) -> None:
         """Bring all controls to what is on the desk."""
         self._undo.disabled, self._redo.disabled = not self._tab.desk.can_undo, not self._tab.desk.can_redo
         for panel in (self._design, *self._series, self._points, self._motion, self._look, self._surface, self._take):
             panel.refresh()
+
+    def show_chosen(self) -> None:
+        """Bring the choices of colours and plates alone to what is chosen."""
+        self._look.show_chosen()
 
     def fit(self, size: float) -> None:
         """Suggest lengths for structures of a size (radius)."""

@@ -1,7 +1,7 @@
 """The words that always stand on screen: status, the report's sentences, the numbers that matter."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 
 from plisse.result import Report
@@ -9,7 +9,8 @@ from plisse.studio.requests import Found
 from plisse.studio.words import spoken
 from plisse.transform.collisions import FreeRange
 
-__all__ = ["Status", "broken", "numbers_of", "refused", "remark", "size_text", "solved", "working"]
+__all__ = ["Status", "broken", "numbers_of", "refused", "remark", "searching", "size_text", "solved",
+           "working"]
 
 MARKS = {"exact": ("✔", "#1f6b4a"), "approximate": ("≈", "#8a5a00"), "infeasible": ("✖", "#9b2f24"),
          "draft": ("…", "#4d463f")}
@@ -24,6 +25,10 @@ class Status:
 
     html: str
     brief: str
+
+    def under(self, refusal: str) -> "Status":
+        """The same, where in a few words only what was refused is said."""
+        return replace(self, brief=f"{MARKS['infeasible'][0]} not done · {spoken(refusal)}")
 
 
 def solved(found: Found, title: str, above: str = "") -> Status:
@@ -46,24 +51,24 @@ def remark(is_pale: bool, percent: float, free: FreeRange | None) -> str:
     return _alert("colliding at this pose", f"{percent:g} %, and free is {free.low:.4g} to {free.high:.4g} %")
 
 
-def refused(sentence: str, found: Found | None, title: str) -> Status:
-    """Why something was not done, above the status of what is still on screen."""
-    sentence = spoken(sentence)
-    if found is None:
-        return _status("infeasible", "not done", sentence)
-    status = solved(found, title, _alert("not done", sentence))
-    return Status(status.html, f"{MARKS['infeasible'][0]} not done · {sentence}")
+def refused(sentence: str) -> str:
+    """Why something was not done, as HTML."""
+    return _alert("not done", spoken(sentence))
 
 
-def broken(sentence: str, before: Found | None) -> Status:
-    """Why a design has no structure; what is pale on screen is that of the design before."""
-    return _status("infeasible", "not done", spoken(sentence), "" if before is None else
-                   f"<div>Pale is what was there before.</div>{_pale(before)}")
+def searching(stage: str, fraction: float) -> str:
+    """How far a search for layouts has come, as HTML."""
+    return f"<div>searching for layouts: {escape(stage)} ({100 * fraction:.0f} %)</div>"
 
 
-def working(stage: str, fraction: float, before: Found | None) -> Status:
+def broken(sentence: str, before: Found | None, above: str = "") -> Status:
+    """Why a design has no structure; the pale numbers are those of the design before, which is pale on screen."""
+    return _status("infeasible", "not done", spoken(sentence), "" if before is None else _pale(before), above)
+
+
+def working(stage: str, fraction: float, before: Found | None, above: str = "") -> Status:
     """What is being done; the numbers of the design before are pale, for they are not those of this one."""
-    return _status("draft", "working", f"{stage} ({100 * fraction:.0f} %)", "" if before is None else _pale(before))
+    return _status("draft", "working", f"{stage} ({100 * fraction:.0f} %)", "" if before is None else _pale(before), above)
 
 
 def numbers_of(report: Report) -> list[tuple[str, str]]:

@@ -21,7 +21,9 @@ __all__ = ["SurfacePanel", "kept_guide", "shape_of"]
 
 NOTHING, CENTRE, GUIDE = "turns the view", "sets the centre", "adds a guide point"
 DOT = "/guide"
-COUNT_HINT = "How many layouts are tried, the best shown first; one that covers all with ease ends the search"
+COUNT_HINT = ("How many layouts are tried; one that covers all and lies near ends the search. The best is shown first: by "
+              "coverage, less 4 % for every amplitude away (1 % with seams), a little for seams, holes and narrow angles")
+MISSED = "That click met no point of the reference surface; nothing was changed."
 CLICK_HINT = "Rows of pleats are laid around the centre; along a guide creases start one beside the other"
 SHAPE = ("file", "edited_file", "handles", "height", "radius", "torus", "x", "y")
 WORDS = (f"Upload a mesh ({', '.join(MESH_FORMATS)}, up to {LARGEST_MESH // 1_000_000} MB). It is read as data on this "
@@ -132,10 +134,12 @@ class SurfacePanel:
     async def _clicked(self, event) -> None:
         found, recipe = self._tab.found, self._tab.desk.recipe
         if found is None or found.reference is None or not isinstance(recipe, SurfaceDesign):
+            self._tab.panels.note(MISSED)
             return
         points = found.reference.points
         hit = first_hit(points, found.reference.triangles, np.array(event.ray_origin), np.array(event.ray_direction))
         if hit is None:
+            self._tab.panels.note(MISSED)
             return
         size = float(np.linalg.norm(np.ptp(points, axis=0)))
         place = np.round(hit, max(0, int(4 - np.floor(np.log10(size))))).tolist()

@@ -20,7 +20,7 @@ from plisse.studio.panels import Panels
 from plisse.studio.requests import Colour, Found, Pose, Request, Solid, Solve
 from plisse.studio.scene import Scene
 from plisse.studio.solving import Solving
-from plisse.studio.status import broken, refused, remark, solved, working
+from plisse.studio.standing import BEGUN, Standing
 from plisse.studio.uploads import Uploads
 from plisse.studio.waiting import Later
 from plisse.studio.worker import Process, Worker
@@ -41,10 +41,9 @@ class Tab:
                  loop: asyncio.AbstractEventLoop, start: Callable[[], Process] | None = None):
         self.client, self._loop = client, loop
         self.desk = Desk(recipe, title)
-        self.found: Found | None = None
+        self.standing = Standing()
         self.is_open = True
         self._framed = False
-        self._refusal = ""  # what stands above the status, empty for nothing
         self._solving, self._longer = Solving(loop, self.ask, self._say_late), Later(loop, LONGER)
         self.free: FreeRange | None = None
         self._hands = Worker(self.deliver, start)
@@ -56,6 +55,11 @@ class Tab:
                                lambda index: self.panels.point_chosen(index))
         self.panels = Panels(self)
         self._solve(at_once=True)
+
+    @property
+    def found(self) -> Found | None:
+        """What was solved last; None where the newest design broke down."""
+        return self.standing.found
 
     def act(self, action: Callable[[], object], *, framed: bool = True) -> None:
         """Do something with the design and show what it comes to, where it is not `framed` from the best side.
@@ -69,11 +73,9 @@ class Tab:
             self.refuse(str(error))
             return self.panels.refresh()
         if self.desk.step is not before:
-            self._refusal = ""
             self._framed = self._framed and framed
             self._solve()
-        elif self._refusal:
-            self.say_found()
+        self.forget_refusal()
         return self.panels.refresh()
 
     def change(self, changes: dict) -> None:
@@ -92,6 +94,7 @@ class Tab:
         """Show a state of the motion."""
         self.dress.pose(percent)
         self._put_on()
+        self.panels.show_chosen()
 
     def paint(self, name: str) -> None:
         """Lay a colour map over the structure as it was designed, or none for the empty name."""
@@ -105,32 +108,41 @@ class Tab:
         self._put_on()
         self.panels.refresh()
 
+    def thicken(self, length: float) -> None:
+        """Show plates or an offset, where they are chosen, of another thickness or distance."""
+        if self.dress.chosen.solid[0]:
+            self.dress.thicken(length)
+            self._put_on()
+
     def ask(self, request: Request) -> None:
         """Ask the process that has the result of what is on screen."""
         self._hands.ask(request)
 
+    def say(self) -> None:
+        """Say how it is with the design and with what is on screen."""
+        self.panels.say(self.standing.status(self.scene.is_pale, self.dress.chosen.percent, self.free))
+
     def refuse(self, sentence: str) -> None:
         """Say that something was not done; what is on screen stays."""
-        self._refusal = sentence
-        self.panels.say(refused(sentence, self.found, self.desk.step.title))
+        self.standing.refusal = sentence
+        self.say()
 
     def forget_refusal(self) -> None:
-        """Say no more what was refused last, for something newer was said beside a box."""
-        self._refusal = ""
-        self._say_again()
+        """Say no more what was refused last, for something newer was done, or said beside a box."""
+        if self.standing.refusal:
+            self.standing.refusal = ""
+            self.say()
 
-    def say_found(self) -> None:
-        """Say what is on screen."""
-        self._refusal = ""
-        if self.found is not None:
-            above = remark(self.scene.is_pale, self.dress.chosen.percent, self.free)
-            self.panels.say(solved(self.found, self.desk.step.title, above))
+    def say_search(self, step: tuple[str, float] | None) -> None:
+        """Say how far a search for layouts has come; None where it has come to its end."""
+        self.standing.search = step
+        self.say()
 
     def show_reach(self, free: FreeRange, offsets: tuple[float, float]) -> None:
         """Show how far the structure moves and can be offset."""
         self.free = free
         self.panels.show_reach(free, offsets)
-        self._say_again()
+        self.say()
 
     def show_handles(self) -> None:
         """Put the handles where the control points are."""
@@ -152,16 +164,16 @@ class Tab:
     def _solve(self, at_once: bool = False) -> None:
         """Ask for the design on the desk."""
         self._longer.cancel()
+        self.dress.carry()
         self._solving.begin(self.desk.solvable, framed=not self._framed, colour=self.dress.chosen.colour, at_once=at_once)
 
     def _say_late(self) -> None:
         if self.is_open:
-            self.panels.say(working("solving", 0.0, self.found))
+            self._say_stage(BEGUN)
 
-    def _say_again(self) -> None:
-        """Say again what is on screen, where nothing else is to be said."""
-        if self._solving.is_over and not self._refusal:
-            self.say_found()
+    def _say_stage(self, step: tuple[str, float]) -> None:
+        self.standing.stage = step
+        self.say()
 
     def _receive(self, request: Request, message: Answer | Failure | Stage) -> None:
         if not self.is_open:
@@ -170,7 +182,7 @@ class Tab:
             return self.errands.receive(request, message)
         if isinstance(message, Stage):
             if isinstance(request, Solve) and self._solving.is_slow:
-                self.panels.say(working(message.name, message.fraction, self.found))
+                self._say_stage((message.name, message.fraction))
             return None
         if isinstance(request, Solve):
             self._solving.end(request, message)
@@ -178,9 +190,8 @@ class Tab:
         if not self.dress.awaits(request):
             return None
         if isinstance(message, Failure):
-            return self._go_back(message.sentence)
-        self.dress.take_in(request, message.value)
-        return self.say_found() if self._refusal else None
+            return self._go_back(request, message.sentence)
+        return self.dress.take_in(request, message.value)
 
     def _end_solve(self, request: Solve, message: Answer | Failure) -> None:
         """Show a solve; one of a design that is not wanted any more only while the design is pulled, as a draft."""
@@ -201,18 +212,29 @@ class Tab:
     def _break_down(self, sentence: str) -> None:
         """Say why there is no structure; what was on screen before is pale."""
         self.dress.pale()
-        self.panels.say(broken(sentence, self.found if self.scene.is_pale else None))
-        self.found = None
+        self.free = None
+        self.standing.break_down(sentence)
+        self.say()
+        self.panels.forget_reach()
+        self.panels.refresh()
 
-    def _go_back(self, sentence: str) -> None:
-        """Go back to what is on screen, and say why."""
+    def _go_back(self, request: Pose | Solid | Colour, sentence: str) -> None:
+        """Go back to what is on screen, and say why where it was asked for and not carried over from another design."""
         self.dress.go_back()
-        self.refuse(sentence)
+        if isinstance(request, Solid):
+            self.panels.fit(self.scene.extent[1])
+        if self.dress.is_carried:
+            self.say()
+        else:
+            self.refuse(sentence)
         self.panels.refresh()
 
     def _show(self, request: Solve, found: Found) -> None:
-        self.found, self.free = found, None
+        self.free = None
+        self.standing.find(found, self.desk.step.title)
         self.dress.put_on_new(found, request)
+        if not self.scene.is_pale:
+            self.standing.seen = found
         if request.framed and found.folded is not None:
             self._framed = True
             self.scene.frame()
@@ -220,13 +242,11 @@ class Tab:
         elif not self.handles.is_pulled:
             self.scene.follow()
         self.show_handles()
-        if self._refusal:
-            self.refuse(self._refusal)  # which came while this was solved
-        else:
-            self.say_found()
+        self.say()
         self.panels.forget_reach()
 
     def _put_on(self) -> None:
-        """Show the structure as it is chosen, and say what holds for it."""
+        """Show the structure as it is chosen, and say what holds for it, and no more what was refused before."""
         self.dress.put_on(self.found, self.desk.solvable)
-        self._say_again()
+        self.standing.refusal = ""
+        self.say()

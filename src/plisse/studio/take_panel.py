@@ -8,6 +8,7 @@ from plisse.studio.downloads import KINDS, MATERIAL, file_name
 from plisse.studio.fields import DIGITS
 
 if TYPE_CHECKING:
+    from plisse.studio.model import Step
     from plisse.studio.tab import Tab
 
 __all__ = ["TakePanel"]
@@ -16,10 +17,11 @@ SMALLEST, LARGEST = (50.0, 50.0), (5000.0, 5000.0)  # mm
 
 
 class TakePanel:
-    """The text is always that of the design on screen."""
+    """The text is that of the design on screen; what was typed and not taken stays until that is another one."""
 
     def __init__(self, tab: Tab):
         self._tab, gui = tab, tab.client.gui
+        self._shown: Step | None = None
         with gui.add_folder("Files"):
             self._kind = gui.add_dropdown("format", tuple(KINDS), hint="What is made of the design on screen")
             self._material = gui.add_vector2("material of pieces (mm)", MATERIAL, min=SMALLEST, max=LARGEST, step=1.0,
@@ -34,8 +36,9 @@ class TakePanel:
             gui.add_upload_button("Open a design file …", icon="upload", mime_type=".toml").on_upload(self._uploaded)
 
     def refresh(self) -> None:
-        """Bring the text to the design on the desk."""
-        self._text.value = self._tab.desk.toml
+        """Bring the text to the design on the desk, where that is another one."""
+        if self._tab.desk.step is not self._shown:
+            self._shown, self._text.value = self._tab.desk.step, self._tab.desk.toml
 
     async def _taken(self, _event) -> None:
         material = float(self._material.value[0]), float(self._material.value[1])

@@ -133,6 +133,20 @@ def test_inclinations_and_widths_are_set_one_by_one_and_along_the_curve(visitor)
     visitor.wait_for("exact")
 
 
+def test_a_text_that_cannot_be_read_stays_to_be_mended(visitor):
+    tab, before = visitor.tab_behind, visitor.text
+    box = visitor.page.get_by_label("design (TOML)")
+    broken = before.replace("creases = 7", "creases = ")
+    box.fill(broken)
+    visitor.button("Read the text above")
+    visitor.wait_for("mend that line")
+    assert box.input_value() == broken
+    box.fill(broken.replace("creases = ", "creases = 8"))
+    visitor.button("Read the text above")
+    until(lambda: tab.desk.recipe.pattern.creases == 8)
+    assert visitor.text == tab.desk.toml
+
+
 def test_a_busy_browser_may_read_of_a_control_and_of_its_end_in_one_frame(visitor):
     tab = visitor.tab_behind
     visitor.fold_out("Width of single strips")
@@ -258,6 +272,26 @@ def test_what_is_typed_counts_when_it_is_complete_and_what_is_refused_goes_back(
     typed("all strips", "[5, 6, 5, 6, 5, 6]")
     until(lambda: tab.desk.recipe.pattern.width == [5, 6, 5, 6, 5, 6])
     until(lambda: alert.count() == 0)
+
+
+def test_steps_back_and_forth_are_taken_from_inputs_in_which_one_does_not_type(visitor):
+    tab, page = visitor.tab_behind, visitor.page
+    visitor.slide("creases", "ArrowRight")
+    until(lambda: tab.desk.recipe.pattern.creases == 8)
+    for control in (page.get_by_label("points lie", exact=True),
+                    page.get_by_role("checkbox", name="closed curve", exact=True)):
+        control.focus()
+        page.keyboard.press("Control+z")
+        until(lambda: tab.desk.recipe.pattern.creases == 7)
+        page.keyboard.press("Control+Shift+Z")
+        until(lambda: tab.desk.recipe.pattern.creases == 8)
+    page.get_by_label(f"{THETA}, as a number", exact=True).focus()
+    page.keyboard.press("Control+z")
+    page.get_by_label("points lie", exact=True).focus()
+    page.keyboard.press("Control+z")
+    until(lambda: not tab.desk.can_undo)
+    assert tab.desk.can_redo
+    assert tab.desk.recipe.pattern.creases == 7
 
 
 def test_undo_and_redo_are_grey_where_they_do_nothing(visitor):

@@ -45,6 +45,19 @@ def test_pages_of_other_sites_and_other_names_for_this_machine_get_nothing(brows
     page.close()
 
 
+def test_controls_of_a_phone_are_as_wide_as_its_window_whatever_its_bar_says(browser, studio):
+    phone = Visitor(browser, studio, width=390, height=780)
+    page = phone.page
+    page.get_by_text("exact · a wave").click()
+    broken = phone.text.replace("creases = 7", "creases = 2")
+    page.get_by_label("design (TOML)").fill(broken)
+    phone.button("Read the text above")
+    phone.wait_for("not done · ")
+    assert page.locator("[style*='max-height: 60%'] .mantine-ScrollArea-viewport").first.evaluate(
+        "controls => [controls.clientWidth, controls.scrollWidth]") == [390, 390]
+    phone.leave()
+
+
 def test_a_solve_that_dies_ends_that_solve_only(visitor):
     """The process behind the tab is killed while nobody looks; the next change has a new one."""
     import os
