@@ -86,7 +86,7 @@ class Visitor:
     def download(self, kind):
         self.tab("Take away")
         self.choose("format", kind)
-        with self.page.expect_download(timeout=60_000) as waiting:
+        with self.page.expect_download(timeout=120_000) as waiting:
             self.button("Download")
         return waiting.value.suggested_filename, Path(waiting.value.path()).read_bytes()
 
