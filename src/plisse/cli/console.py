@@ -85,8 +85,8 @@ def show_table(rows: list[Row]) -> None:
     console.print(shown)
     console.print(f"V vertices, F faces; {theirs / ours:.0f} times as fast as the paper", highlight=False)
     for row in rows:
-        if note(row):
-            console.print(Text(f"· {row.name}: {note(row)}"))
+        if said := note(row):
+            console.print(Text(f"· {row.name}: {said}"))
 
 
 def _power(value: float | None) -> str:

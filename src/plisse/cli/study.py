@@ -71,14 +71,7 @@ def study(
     from plisse.errors import PlisseError
     from plisse.study import run
 
-    if workers is not None and workers < 1:
-        raise PlisseError(f"--workers is {workers}; give a number from 1")
-    if scheduler is not None and workers is not None:
-        raise PlisseError("--workers counts processes on this machine, --scheduler names others; leave one out")
-    others = [name for name, given in (("--scheduler", scheduler), ("--workers", workers), ("--retry", retry or None))
-              if given is not None]
-    if best is not None and others:
-        raise PlisseError(f"--best adds nothing to a study, and {others[0]} says how designs are added; leave one out")
+    _refuse_contradictions(scheduler, workers, retry, best)
     if best is not None:
         return _copy_best(study, output, best, by, json, quiet)
     if study is None:
@@ -98,6 +91,21 @@ def study(
     elif not quiet:
         _summarise(found)
     return 0 if found.counts.get("exact") else 3
+
+
+def _refuse_contradictions(scheduler: str | None, workers: int | None, retry: bool, best: int | None) -> None:
+    """Nothing; raises PlisseError where options do not go together."""
+    from plisse.errors import PlisseError
+
+    if workers is not None and workers < 1:
+        raise PlisseError(f"--workers is {workers}; give a number from 1")
+    if scheduler is not None and workers is not None:
+        raise PlisseError("--workers counts processes on this machine, --scheduler names others; leave one out")
+    if best is None:
+        return
+    for name, is_given in (("--scheduler", scheduler is not None), ("--workers", workers is not None), ("--retry", retry)):
+        if is_given:
+            raise PlisseError(f"--best adds nothing to a study, and {name} says how designs are added; leave one out")
 
 
 def _copy_best(study: Path | None, output: Path | None, count: int, by: str | None, json: bool, quiet: bool) -> int:

@@ -27,7 +27,7 @@ from plisse.recipe import (
     WeierstrassData,
 )
 
-__all__ = ["is_asymptotic", "refuse_non_finite", "sentence"]
+__all__ = ["WORDS", "hint", "is_asymptotic", "refuse_non_finite", "sentence"]
 
 SECTIONS = {"": Design, "pattern": Pattern, "march": March, "solve": Solve, "parallel": Parallel,
             "strips": Strips}
@@ -72,15 +72,21 @@ def sentence(message: str, data: dict) -> str:
         return f"{key} is not a key of a design; known {'here' if path else 'sections'}: {', '.join(known)}"
     if match := re.match(r"object missing required field `(.*)`", what):
         key = f"{path}.{match[1]}" if path else match[1]
-        hint = _hint(key, data)
-        return f"{key} is missing; add it" + (f" ({hint})" if hint else "")
-    hint = _hint(path, data)
+        wanted = _wanted(key, data)
+        return f"{key} is missing; add it" + (f" ({wanted})" if wanted else "")
+    wanted = _wanted(path, data)
     found = _lookup(data, path)
-    if hint and what.startswith(OUT_OF_RANGE) and not isinstance(found, dict | list):
-        return f"{path} is {found!r}; give {hint}"
+    if wanted and what.startswith(OUT_OF_RANGE) and not isinstance(found, dict | list):
+        return f"{path} is {found!r}; give {wanted}"
     what = re.sub(r"`(\w+)`", lambda match: WORDS.get(match[1], match[0]), what)
     shown = "" if isinstance(found, dict | list) or found is None else f", found {found!r}"
-    return f"{path or 'the design'}: {what}{shown}" + (f"; give {hint}" if hint else "")
+    return f"{path or 'the design'}: {what}{shown}" + (f"; give {wanted}" if wanted else "")
+
+
+def hint(struct: type, key: str) -> str:
+    """What a key of a struct takes, from the description that its type carries; empty where there is none."""
+    field = next((field for field in msgspec.structs.fields(struct) if field.name == key), None)
+    return _description(msgspec.inspect.type_info(field.type)) if field else ""
 
 
 def _struct_at(path: str, data: dict) -> type | None:
@@ -106,16 +112,13 @@ def _kinds(path: str) -> list[str]:
     return [str(c.__struct_config__.tag) for c in KINDS[path.split(".")[0]].__args__]
 
 
-def _hint(path: str, data: dict) -> str:
-    """What the key wants, from the description that its type carries."""
+def _wanted(path: str, data: dict) -> str:
+    """What the key at a path takes."""
     if path.removesuffix(".kind") in KINDS:
         return "kind = one of " + ", ".join(_kinds(path))
     section, _, key = re.sub(r"\[.*?\]", "", path).rpartition(".")
     struct = _struct_at(section, data)
-    if struct is None:
-        return ""
-    field = next((f for f in msgspec.structs.fields(struct) if f.name == key), None)
-    return _description(msgspec.inspect.type_info(field.type)) if field else ""
+    return "" if struct is None else hint(struct, key)
 
 
 def _description(info: msgspec.inspect.Type) -> str:

@@ -14,7 +14,7 @@ from plisse.measure.mid_surface import MidSurfaceDeviation
 from plisse.solve.masked import Masked
 from plisse.structure.topology import Topology
 
-__all__ = ["FULL", "PARTED", "Candidate", "centre_of", "holes_of"]
+__all__ = ["FARNESS", "FARNESS_APART", "FULL", "PARTED", "Candidate", "centre_of", "holes_of"]
 
 FULL = 0.995  # coverage that is as good as all
 FARNESS, FARNESS_APART = 0.04, 0.01  # coverage that one amplitude of mean deviation is worth, in one piece or in more

@@ -101,9 +101,9 @@ class LookPanel:
         """Bring the choices of colours and plates to what is to be seen of what is chosen."""
         _, (kind, length), colour = self._look
         self._colours.disabled = self._kind.disabled = not self._has_structure
-        _choose(self._colours, colour or PAPER)
-        _choose(self._kind, kind or SHEET)
-        if kind and self._length.value != length:
+        self._colours.value = colour or PAPER
+        self._kind.value = kind or SHEET
+        if kind:
             self._length.value = length
 
     def show_scale(self, tint: Tint | None) -> None:
@@ -193,8 +193,3 @@ class LookPanel:
                 camera.position = middle + turn.apply(camera.position - middle)
                 camera.look_at = middle  # which goes along with the position
             await asyncio.sleep(1 / FRAMES)
-
-
-def _choose(dropdown: Any, option: str) -> None:
-    if dropdown.value != option:
-        dropdown.value = option

@@ -84,10 +84,10 @@ class SeriesPanel:
 
     def _fill_rows(self, series: Series) -> None:
         text, *rows = self._controls
-        _set(text, list_text(series.value))
+        text.value = list_text(series.value)
         for row, number in zip(rows, series.value, strict=False):  # type: ignore[arg-type]
             row.min, row.max = min(row.min, number), max(row.max, number)
-            _set(row, float(number))
+            row.value = float(number)
 
     def _build_place(self, series: Series) -> None:
         gui, count = self._tab.client.gui, len(series.value)  # type: ignore[arg-type]
@@ -104,9 +104,9 @@ class SeriesPanel:
 
     def _fill_place(self, series: Series) -> None:
         text, number, place, _ = self._controls
-        _set(text, list_text(series.value))
+        text.value = list_text(series.value)
         position, value = series.value[number.value - 1]  # type: ignore[index]
-        _set(place, (round(PERCENT * position, DIGITS), float(value)))
+        place.value = round(PERCENT * position, DIGITS), float(value)
 
     def _value(self) -> Any:
         series = series_of(self._tab.desk.recipe, self._key)
@@ -144,8 +144,3 @@ class SeriesPanel:
         if event.client is not None and isinstance(table, list):
             edit = with_place_after if event.target.value == "add" else without_place
             self._tab.change({self._key: edit(table, index)})
-
-
-def _set(control: Any, value: object) -> None:
-    if control.value != value:
-        control.value = value

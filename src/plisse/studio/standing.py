@@ -11,23 +11,22 @@ from plisse.transform.collisions import FreeRange
 __all__ = ["Standing"]
 
 BEGUN = "solving", 0.0
-Step = tuple[str, float]  # the name of a stage, and which fraction of the work is done
 
 
 @dataclass
 class Standing:
     """The newest design and the title under which it was found, or why it broke down, or the stage of its solve.
 
-    `seen` is what the scene shows, pale or not; a refusal and the stage of a search for layouts stand above all this and
-    change nothing of it.
+    A stage is a name with the fraction of the work that is done. `seen` is what the scene shows, pale or not; a refusal and
+    the stage of a search for layouts stand above all this and change nothing of it.
     """
 
     found: Found | None = None
     title: str = ""
     seen: Found | None = None
     breakdown: str = ""
-    stage: Step | None = None
-    search: Step | None = None
+    stage: tuple[str, float] | None = None
+    search: tuple[str, float] | None = None
     refusal: str = ""
 
     def find(self, found: Found, title: str) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from plisse.draw import colours
 from plisse.recipe import Recipe, SurfaceDesign
+from plisse.solve.candidate import FARNESS, FARNESS_APART
 from plisse.studio.paper import ink_bytes
 from plisse.studio.picking import first_hit
 from plisse.studio.shelf import LARGEST_MESH, MESH_FORMATS
@@ -22,7 +23,8 @@ __all__ = ["SurfacePanel", "kept_guide", "shape_of"]
 NOTHING, CENTRE, GUIDE = "turns the view", "sets the centre", "adds a guide point"
 DOT = "/guide"
 COUNT_HINT = ("How many layouts are tried; one that covers all and lies near ends the search. The best is shown first: by "
-              "coverage, less 4 % for every amplitude away (1 % with seams), a little for seams, holes and narrow angles")
+              f"coverage, less {100 * FARNESS:g} % for every amplitude away ({100 * FARNESS_APART:g} % with seams), a "
+              "little for seams, holes and narrow angles")
 MISSED = "That click met no point of the reference surface; nothing was changed."
 CLICK_HINT = "Rows of pleats are laid around the centre; along a guide creases start one beside the other"
 SHAPE = ("file", "edited_file", "handles", "height", "radius", "torus", "x", "y")

@@ -9,7 +9,6 @@ from plisse.study.store import Row
 
 __all__ = ["CRITERIA", "best", "write_best"]
 
-
 OURS = re.compile(r"\d{2,}-[0-9a-f]{16}\.(toml|png)")
 
 

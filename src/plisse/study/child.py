@@ -49,14 +49,10 @@ def _status(error: PlisseError, recipe: dict) -> str:
         return "memory"
     if isinstance(error, Infeasible):
         return "infeasible"
-    there = all(os.access(file, os.R_OK) for file in _files(recipe))
+    from plisse.study.samples import mesh_files
+
+    there = all(os.access(file, os.R_OK) for file in mesh_files(recipe).values())
     return "invalid" if isinstance(error, InvalidDesign) and there else "failed"
-
-
-def _files(recipe: dict) -> list[str]:
-    """The files that a recipe names."""
-    sections = [section for section in recipe.values() if isinstance(section, dict)]
-    return [value for section in sections for key, value in section.items() if f"_{key}".endswith("_file") and value]
 
 
 def _made(recipe: dict, forecast: bool) -> Outcome:

@@ -8,10 +8,10 @@ import msgspec
 from msgspec import Meta
 
 from plisse.errors import InvalidDesign
-from plisse.io.mistakes import refuse_non_finite
+from plisse.io.mistakes import hint, refuse_non_finite
 from plisse.recipe.fields import Strict
 from plisse.shipped import shipped_design, shipped_names
-from plisse.study.wording import expected, hint
+from plisse.study.wording import expected
 
 __all__ = ["Limits", "Map", "Plan", "read_plan"]
 

@@ -13,7 +13,7 @@ from plisse.study.plan import Map, Plan
 from plisse.study.ranges import MOST
 from plisse.study.values import assignments, read_block
 
-__all__ = ["Sample", "samples", "value_at"]
+__all__ = ["Sample", "mesh_files", "samples", "value_at"]
 
 FILES = ("file", "edited_file")
 PANELS = 24
@@ -61,6 +61,12 @@ def value_at(recipe: dict, key: str) -> object:
     for name in key.split("."):
         place = place.get(name) if isinstance(place, dict) else None
     return place
+
+
+def mesh_files(recipe: dict) -> dict[str, str]:
+    """The files that a recipe names, by their keys in its surface; all others were read with it."""
+    surface = recipe.get("surface")
+    return {key: surface[key] for key in FILES if surface.get(key)} if isinstance(surface, dict) else {}
 
 
 def _check_map(axes: Map, found: list[Sample]) -> None:
@@ -112,9 +118,9 @@ def _assign(data: dict, key: str, value: object) -> None:
 
 def _key(recipe: dict) -> str:
     """Sixteen hexadecimal digits of a recipe: of its numbers and of the contents of files, not of where they lie."""
-    surface = recipe.get("surface")
-    if isinstance(surface, dict):
-        recipe = {**recipe, "surface": {key: _content(value) if key in FILES else value for key, value in surface.items()}}
+    if files := mesh_files(recipe):
+        contents = {key: _content(path) for key, path in files.items()}
+        recipe = {**recipe, "surface": {**recipe["surface"], **contents}}
     return hashlib.sha256(msgspec.json.encode(recipe, order="deterministic")).hexdigest()[:16]
 
 

@@ -9,9 +9,10 @@ import numpy as np
 from msgspec import Meta
 
 from plisse.errors import InvalidDesign
+from plisse.io.mistakes import hint
 from plisse.recipe.fields import Strict
 from plisse.study.ranges import BOUNDS, RANGE, Bounds, Count, Range, checked_bounds, checked_range, is_range
-from plisse.study.wording import expected, hint
+from plisse.study.wording import expected
 
 __all__ = ["Block", "assignments", "read_block"]
 

@@ -1,12 +1,10 @@
-"""Mistakes in a study file in words: what was expected, and what the key takes."""
+"""Mistakes in a study file in words: what was expected."""
 
 import re
 
-import msgspec
-
 from plisse.io.mistakes import WORDS
 
-__all__ = ["expected", "hint"]
+__all__ = ["expected"]
 
 
 def expected(message: str) -> str:
@@ -16,20 +14,6 @@ def expected(message: str) -> str:
     return message[0].lower() + message[1:]
 
 
-def hint(struct: type[msgspec.Struct], name: str) -> str:
-    """What a key of a struct takes, from the description that its type carries; empty where there is none."""
-    field = next((field for field in msgspec.structs.fields(struct) if field.name == name), None)
-    return _description(msgspec.inspect.type_info(field.type)) if field else ""
-
-
 def _kinds(names: list[str]) -> str:
     needless = {"null", "int"} if "float" in names else {"null"}
     return " or ".join(WORDS.get(name, name) for name in names if name not in needless)
-
-
-def _description(info: msgspec.inspect.Type) -> str:
-    if isinstance(info, msgspec.inspect.Metadata):
-        return (info.extra_json_schema or {}).get("description", "")
-    if isinstance(info, msgspec.inspect.UnionType):
-        return next((text for text in map(_description, info.types) if text), "")
-    return ""
